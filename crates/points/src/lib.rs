@@ -1,0 +1,1 @@
+//! Uniform numbers: where to look.

@@ -1,0 +1,8 @@
+//! The door between the Rust core and Python: conversions only, no mathematics.
+use pyo3::prelude::*;
+
+/// The private extension module behind the `evenlight` package.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))
+}

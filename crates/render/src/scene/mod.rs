@@ -1,0 +1,4 @@
+//! Scenes: from a file to plain data to something a ray can meet.
+
+pub mod node;
+pub mod properties;

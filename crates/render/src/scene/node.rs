@@ -1,0 +1,102 @@
+//! A scene file as plain data: a tree of plugins with their parameters, before anything is built.
+//!
+//! Parameters of the command line (`$name`), includes, transforms and relative paths are already resolved here; references are
+//! shared nodes.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use crate::Location;
+
+/// What a plugin is: the name of its XML element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// The root.
+    Scene,
+    /// How light transport is solved.
+    Integrator,
+    /// A camera.
+    Sensor,
+    /// What a camera records.
+    Film,
+    /// A pixel reconstruction filter.
+    ReconstructionFilter,
+    /// Where random numbers come from.
+    Sampler,
+    /// Geometry.
+    Shape,
+    /// Scattering at a surface.
+    Bsdf,
+    /// A source of light.
+    Emitter,
+    /// A color that varies.
+    Texture,
+    /// A participating medium.
+    Medium,
+    /// A phase function of a medium.
+    PhaseFunction,
+    /// A field over a volume.
+    Volume,
+}
+
+/// The value of one parameter.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// `<boolean>`
+    Boolean(bool),
+    /// `<integer>`
+    Integer(i64),
+    /// `<float>`
+    Float(f64),
+    /// `<string>`
+    String(String),
+    /// `<point>`, `<vector>`
+    Vector([f64; 3]),
+    /// `<transform>`: finite, column vectors.
+    Transform(DMat4),
+    /// `<rgb>` and uniform or tabulated `<spectrum>`, already linear sRGB.
+    Rgb([f64; 3]),
+}
+
+/// A named parameter of a plugin.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name, unique within the plugin.
+    pub name: String,
+    /// Its value.
+    pub value: Value,
+    /// Where it stands.
+    pub location: Location,
+}
+
+/// A nested or referenced plugin.
+#[derive(Clone, Debug)]
+pub struct Child {
+    /// The name it was given by its parent, if any (`_arg_…` counts as none).
+    pub name: Option<String>,
+    /// The plugin; shared between all that refer to it.
+    pub node: Arc<Node>,
+    /// Where it is nested or referred to.
+    pub location: Location,
+}
+
+/// A plugin with its parameters.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// What it is.
+    pub kind: Kind,
+    /// Its `type` attribute; empty for the scene itself.
+    pub plugin: String,
+    /// Its `id` attribute, if any.
+    pub id: Option<String>,
+    /// Where it stands.
+    pub location: Location,
+    /// Its parameters, in file order.
+    pub parameters: Vec<Parameter>,
+    /// Its nested and referenced plugins, in file order.
+    pub children: Vec<Child>,
+    /// The scene folder that relative file names are resolved against and, unless allowed, must not leave.
+    pub folder: Arc<PathBuf>,
+}
