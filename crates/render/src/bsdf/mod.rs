@@ -57,3 +57,8 @@ pub trait Bsdf: Send + Sync {
     /// Directional albedo, roughly: what the albedo layer of the film shows.
     fn albedo(&self, surface: &Surface) -> Rgb;
 }
+
+pub mod diffuse;
+
+/// The scattering functions there are.
+pub static ALL: &[crate::scene::build::Entry<dyn Bsdf>] = &[diffuse::ENTRY];

@@ -41,6 +41,27 @@ pub enum Kind {
     Volume,
 }
 
+impl Kind {
+    /// The XML element that introduces this kind.
+    pub fn element(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Integrator => "integrator",
+            Self::Sensor => "sensor",
+            Self::Film => "film",
+            Self::ReconstructionFilter => "rfilter",
+            Self::Sampler => "sampler",
+            Self::Shape => "shape",
+            Self::Bsdf => "bsdf",
+            Self::Emitter => "emitter",
+            Self::Texture => "texture",
+            Self::Medium => "medium",
+            Self::PhaseFunction => "phase",
+            Self::Volume => "volume",
+        }
+    }
+}
+
 /// The value of one parameter.
 #[derive(Clone, Debug)]
 pub enum Value {
@@ -58,6 +79,21 @@ pub enum Value {
     Transform(DMat4),
     /// `<rgb>` and uniform or tabulated `<spectrum>`, already linear sRGB.
     Rgb([f64; 3]),
+}
+
+impl Value {
+    /// The XML element that gives such a value.
+    pub fn element(&self) -> &'static str {
+        match self {
+            Self::Boolean(_) => "a boolean",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a float",
+            Self::String(_) => "a string",
+            Self::Vector(_) => "a point or vector",
+            Self::Transform(_) => "a transform",
+            Self::Rgb(_) => "a color",
+        }
+    }
 }
 
 /// A named parameter of a plugin.

@@ -23,3 +23,9 @@ pub trait Texture: Send + Sync {
         false
     }
 }
+
+pub mod constant;
+pub mod image;
+
+/// The textures there are.
+pub static ALL: &[crate::scene::build::Entry<dyn Texture>] = &[];
