@@ -34,9 +34,8 @@ impl Folder {
     /// Look in `folder` first. It must have been resolved.
     pub(crate) fn prepend(&mut self, folder: PathBuf) {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        if !self.search.contains(&folder) {
-            self.search.insert(0, folder);
-        }
+        self.search.retain(|known| *known != folder);
+        self.search.insert(0, folder);
     }
 
     /// The first place where `given` exists, else where it would be in the scene's folder. The error says why a place

@@ -42,6 +42,23 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 13] = [
+        Self::Scene,
+        Self::Integrator,
+        Self::Sensor,
+        Self::Film,
+        Self::ReconstructionFilter,
+        Self::Sampler,
+        Self::Shape,
+        Self::Bsdf,
+        Self::Emitter,
+        Self::Texture,
+        Self::Medium,
+        Self::PhaseFunction,
+        Self::Volume,
+    ];
+
     /// The XML element that introduces this kind.
     pub fn element(self) -> &'static str {
         match self {

@@ -25,6 +25,7 @@ pub trait Texture: Send + Sync {
 }
 
 pub mod constant;
+mod exr;
 pub mod image;
 
 /// The textures there are.
