@@ -19,6 +19,7 @@ pub(super) fn decode(bytes: &[u8], max_side: u32, max_bytes: u64) -> Result<(Dyn
         .all_channels()
         .first_valid_layer()
         .all_attributes()
+        .non_parallel() // a panic in a thread of its pool would end the process
         .from_buffered(Cursor::new(bytes))
         .map_err(|error| format!("cannot be decoded: {error}"))?;
     let layer = image.layer_data;

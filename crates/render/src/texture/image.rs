@@ -47,7 +47,10 @@ impl Image {
     pub fn read(path: &Path, raw: bool) -> Result<Self> {
         let bytes = folder::read(path, FILE_LIMIT)?;
         let format = format_of(path, &bytes)?;
-        let (decoded, channels) = decode(&bytes, format).map_err(|message| Error::file(path, message))?;
+        // Decoders of others are careful, but not free of assertions that a broken file can meet.
+        let decoded = std::panic::catch_unwind(|| decode(&bytes, format));
+        let decoded = decoded.unwrap_or_else(|_| Err("cannot be decoded: the decoder gave up".into()));
+        let (decoded, channels) = decoded.map_err(|message| Error::file(path, message))?;
         let image = Self::from_decoded(&decoded, channels, raw);
         let finite = |pixel: &[f32; 3]| pixel.iter().all(|c| c.is_finite());
         match image.pixels.iter().position(|pixel| !finite(pixel)) {

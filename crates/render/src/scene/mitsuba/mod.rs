@@ -9,6 +9,7 @@
 //! cannot become a large tree; files outside of the scene's folder are refused unless allowed.
 
 mod document;
+mod drafts;
 mod parameters;
 mod reader;
 mod resolve;

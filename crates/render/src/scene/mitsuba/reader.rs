@@ -1,55 +1,25 @@
 //! From the elements of all files of a scene to drafts of nodes, whose references are still names.
 
-use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DMat4;
 
 use super::document::{self, Element, Source};
+use super::drafts::{Drafts, Target};
 use super::parameters::Parameters;
 use super::{
     DEPTH_LIMIT, FILE_LIMIT, INCLUDE_DEPTH_LIMIT, INCLUDE_LIMIT, LoadOptions, TOTAL_LIMIT, spectrum,
     transform, values,
 };
 use crate::scene::folder::{self, Folder};
-use crate::scene::node::{Kind, Parameter, Value};
+use crate::scene::node::{Kind, Value};
 use crate::{Error, Location, Result};
-
-/// A node whose children are places in a list or ids.
-pub(super) struct Draft {
-    pub(super) kind: Kind,
-    pub(super) plugin: String,
-    pub(super) id: Option<String>,
-    pub(super) location: Location,
-    pub(super) parameters: Vec<Parameter>,
-    pub(super) children: Vec<DraftChild>,
-    pub(super) folder: Arc<Folder>,
-    names: HashSet<String>,
-}
-
-pub(super) struct DraftChild {
-    pub(super) name: Option<String>,
-    pub(super) target: Target,
-    pub(super) location: Location,
-}
-
-pub(super) enum Target {
-    /// A place in [`Drafts::all`].
-    Draft(usize),
-    Id(String),
-}
-
-/// All nodes of a scene; the first one is the root.
-pub(super) struct Drafts {
-    pub(super) all: Vec<Draft>,
-    pub(super) ids: BTreeMap<String, (usize, Location)>,
-}
 
 /// Read the scene and all that it includes.
 pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Drafts> {
     let mut reader = Reader {
-        drafts: Drafts { all: Vec::new(), ids: BTreeMap::new() },
+        drafts: Drafts::default(),
         parameters: Parameters::new(&options.parameters),
         open: Vec::new(),
         includes: 0,
@@ -119,7 +89,7 @@ impl Reader {
         match parent {
             None if element.name == "scene" => {
                 element.allow(&["version"], &["type", "id", "name"])?;
-                let root = self.push(Kind::Scene, &element, file)?;
+                let root = self.drafts.push(Kind::Scene, &element, &file.folder)?;
                 self.children(node, file, root, 1)
             }
             None => Err(element.error("a scene file must start with <scene>")),
@@ -130,8 +100,9 @@ impl Reader {
             Some(parent) => {
                 let Some(kind) = kind_named(element.name) else { return Err(unknown(&element)) };
                 element.allow(&["version", "type"], &["id", "name"])?;
-                let child = self.push(kind, &element, file)?;
-                self.attach(parent.draft, parent.name.or(element.get("name")), child, &element)?;
+                let child = self.drafts.push(kind, &element, &file.folder)?;
+                let name = parent.name.or(element.get("name"));
+                self.drafts.attach(parent.draft, name, Target::Draft(child), &element)?;
                 self.children(node, file, child, parent.depth + 1)
             }
         }
@@ -166,8 +137,8 @@ impl Reader {
         }
         if let Some(kind) = kind_named(element.name) {
             element.allow(&["type"], &["id", "name"])?;
-            let child = self.push(kind, element, file)?;
-            self.attach(parent, element.get("name"), child, element)?;
+            let child = self.drafts.push(kind, element, &file.folder)?;
+            self.drafts.attach(parent, element.get("name"), Target::Draft(child), element)?;
             return self.children(node, file, child, depth + 1);
         }
         if element.name != "transform" && node.children().any(|child| child.is_element()) {
@@ -181,88 +152,9 @@ impl Reader {
             "ref" => self.reference(element, parent),
             _ => {
                 let value = self.value(node, element, file, parent)?;
-                self.set(parent, element, value)
+                self.drafts.set(parent, element, value)
             }
         }
-    }
-
-    fn push(&mut self, kind: Kind, element: &Element<'_>, file: &File) -> Result<usize> {
-        let place = self.drafts.all.len();
-        let id = element.get("id").map(str::to_owned);
-        if let Some(id) = &id {
-            self.name_node(id, place, element)?;
-        }
-        let plugin = element.required("type").to_owned();
-        if plugin.is_empty() && kind != Kind::Scene {
-            return Err(element.error("the attribute 'type' is empty"));
-        }
-        self.drafts.all.push(Draft {
-            kind,
-            plugin: if kind == Kind::Scene { String::new() } else { plugin },
-            id,
-            location: element.location.clone(),
-            parameters: Vec::new(),
-            children: Vec::new(),
-            folder: file.folder.clone(),
-            names: HashSet::new(),
-        });
-        Ok(place)
-    }
-
-    fn name_node(&mut self, id: &str, place: usize, element: &Element<'_>) -> Result<()> {
-        if id.is_empty() {
-            return Err(element.error("an id is empty"));
-        }
-        let previous = self.drafts.ids.insert(id.to_owned(), (place, element.location.clone()));
-        match previous {
-            None => Ok(()),
-            Some((_, first)) => Err(element.error(format_args!("the id '{id}' is already taken at {first}"))),
-        }
-    }
-
-    /// Names must be unique among the parameters and children of a node; `_arg_…` stands for no name.
-    fn claim(&mut self, parent: usize, name: &str, element: &Element<'_>) -> Result<()> {
-        if self.drafts.all[parent].names.insert(name.to_owned()) {
-            return Ok(());
-        }
-        Err(element.error(format_args!("the name '{name}' is given twice in one plugin")))
-    }
-
-    fn attach(
-        &mut self,
-        parent: usize,
-        name: Option<&str>,
-        child: usize,
-        element: &Element<'_>,
-    ) -> Result<()> {
-        self.attach_target(parent, name, Target::Draft(child), element)
-    }
-
-    fn attach_target(
-        &mut self,
-        parent: usize,
-        name: Option<&str>,
-        target: Target,
-        element: &Element<'_>,
-    ) -> Result<()> {
-        let name = name.filter(|name| !name.is_empty() && !name.starts_with("_arg_"));
-        if let Some(name) = name {
-            self.claim(parent, name, element)?;
-        }
-        let child = DraftChild { name: name.map(str::to_owned), target, location: element.location.clone() };
-        self.drafts.all[parent].children.push(child);
-        Ok(())
-    }
-
-    fn set(&mut self, parent: usize, element: &Element<'_>, value: Value) -> Result<()> {
-        let name = element.required("name");
-        if name.is_empty() {
-            return Err(element.error("the attribute 'name' is empty"));
-        }
-        self.claim(parent, name, element)?;
-        let parameter = Parameter { name: name.to_owned(), value, location: element.location.clone() };
-        self.drafts.all[parent].parameters.push(parameter);
-        Ok(())
     }
 
     fn default(&mut self, element: &Element<'_>) -> Result<()> {
@@ -277,13 +169,13 @@ impl Reader {
         let place = self.drafts.ids.get(id).map(|(place, _)| *place);
         let place =
             place.ok_or_else(|| element.error(format_args!("no object before this has the id '{id}'")))?;
-        self.name_node(new, place, element)
+        self.drafts.name_node(new, place, element)
     }
 
     fn reference(&mut self, element: &Element<'_>, parent: usize) -> Result<()> {
         element.allow(&["id"], &["name"])?;
         let id = element.required("id").to_owned();
-        self.attach_target(parent, element.get("name"), Target::Id(id), element)
+        self.drafts.attach(parent, element.get("name"), Target::Id(id), element)
     }
 
     fn include(&mut self, element: &Element<'_>, file: &File, (parent, depth): (usize, usize)) -> Result<()> {
@@ -366,14 +258,14 @@ impl Reader {
         (parent, depth): (usize, usize),
     ) -> Result<()> {
         element.allow(&["type", "name"], &[])?;
-        let place = self.push(Kind::Texture, element, file)?;
+        let place = self.drafts.push(Kind::Texture, element, &file.folder)?;
         self.children(node, file, place, depth + 1)?;
         let draft =
             self.drafts.all.pop().filter(|draft| draft.children.is_empty() && self.drafts.all.len() == place);
         let draft = draft.ok_or_else(|| element.error("takes no nested plugins"))?;
         let color =
             spectrum::plugin(&draft.plugin, &draft.parameters).map_err(|message| element.error(message))?;
-        self.set(parent, element, Value::Rgb(color))
+        self.drafts.set(parent, element, Value::Rgb(color))
     }
 }
 

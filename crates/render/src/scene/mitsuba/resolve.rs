@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::DEPTH_LIMIT;
-use super::reader::{Draft, Drafts, Target};
+use super::drafts::{Draft, Drafts, Target};
 use crate::scene::node::{Child, Node};
 use crate::{Error, Location, Result};
 
