@@ -84,6 +84,11 @@ fn many_names_take_no_quadratic_time() {
         write!(body, "<float name='f{i}' value='1'/>").expect("text");
     }
     scene(&(body + "</shape>")).expect("large, but valid");
+    let mut body = "<shape type='a'".to_owned();
+    for i in 0..30_000 {
+        write!(body, " a{i}=''").expect("text");
+    }
+    assert!(scene(&(body + "/>")).is_err());
     let mut body = String::new();
     for i in 0..100_000 {
         write!(body, "<bsdf type='a' id='id{i}'/>").expect("text");
@@ -165,19 +170,22 @@ fn binary_ply(big: bool) -> Vec<u8> {
          property double x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nend_header\n"
     )
     .into_bytes();
-    let mut put = |bytes: &[u8]| match big {
-        true => file.extend(bytes.iter().rev()),
-        false => file.extend(bytes),
-    };
-    [2_u16, 8, 9].iter().for_each(|x| put(&x.to_le_bytes()));
+    let mut put = |bytes: &[u8]| if big { file.extend(bytes.iter().rev()) } else { file.extend(bytes) };
+    for x in [2_u16, 8, 9] {
+        put(&x.to_le_bytes());
+    }
     for face in [[0_u32, 1, 2], [0, 2, 3]] {
         put(&[3]);
-        face.iter().for_each(|i| put(&i.to_le_bytes()));
+        for i in face {
+            put(&i.to_le_bytes());
+        }
     }
     for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0_f32, 1.0]] {
         put(&1.0_f32.to_le_bytes());
         put(&f64::from(x).to_le_bytes());
-        [y, 0.0, 0.0, 0.0].iter().for_each(|c| put(&c.to_le_bytes()));
+        for c in [y, 0.0, 0.0, 0.0] {
+            put(&c.to_le_bytes());
+        }
     }
     file
 }
@@ -196,12 +204,15 @@ fn serialized_file(version: u16, double: bool) -> Vec<u8> {
     let normals = (0..4).flat_map(|_| [0.0, 0.0, 1.0]);
     let colors = (0..12).map(|_| 0.5);
     for number in positions.chain(normals).chain(corners.into_iter().flatten()).chain(colors) {
-        match double {
-            true => content.extend(number.to_le_bytes()),
-            false => content.extend((number as f32).to_le_bytes()),
+        if double {
+            content.extend(number.to_le_bytes());
+        } else {
+            content.extend((number as f32).to_le_bytes());
         }
     }
-    [0_u32, 1, 2, 0, 2, 3].iter().for_each(|i| content.extend(i.to_le_bytes()));
+    for i in [0_u32, 1, 2, 0, 2, 3] {
+        content.extend(i.to_le_bytes());
+    }
     let mesh = packed(version, &content);
     let mut file = [mesh.clone(), mesh.clone()].concat();
     for offset in [0, mesh.len()] {

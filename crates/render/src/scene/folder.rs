@@ -58,13 +58,11 @@ impl Folder {
     /// Whether a file is below the root when all links are followed. A file that does not exist is judged by its name.
     fn contains(&self, file: &Path) -> bool {
         let Ok(root) = self.root.canonicalize() else { return false };
-        match file.canonicalize() {
-            Ok(real) => real.starts_with(&root),
-            Err(_) => {
-                let below = file.strip_prefix(&self.root).or_else(|_| file.strip_prefix(&root));
-                below.is_ok_and(|rest| rest.components().all(|part| matches!(part, Component::Normal(_))))
-            }
+        if let Ok(real) = file.canonicalize() {
+            return real.starts_with(&root);
         }
+        let below = file.strip_prefix(&self.root).or_else(|_| file.strip_prefix(&root));
+        below.is_ok_and(|rest| rest.components().all(|part| matches!(part, Component::Normal(_))))
     }
 }
 

@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn conductors_are_those_of_mitsuba() {
         let gold = ([0.143036, 0.375307, 1.442045], [3.982997, 2.385556, 1.603359]);
-        let copper = ([0.201005, 0.923750, 1.102215], [3.913262, 2.453045, 2.142090]);
+        let copper = ([0.201005, 0.923750, 1.102215], [3.913262, 2.453045, 2.14209]);
         let aluminium = ([1.657501, 0.880405, 0.521244], [9.223811, 6.269502, 4.837004]);
         for (name, (eta, k)) in [("Au", gold), ("Cu", copper), ("Al", aluminium)] {
             let (ours, ours_k) = conductor(name).expect(name);

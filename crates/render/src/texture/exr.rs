@@ -1,4 +1,4 @@
-//! OpenEXR by way of the `exr` crate: any channel names, half or float, the largest resolution level of the first flat layer.
+//! `OpenEXR` by way of the `exr` crate: any channel names, half or float, the largest level of the first flat layer.
 //!
 //! The `image` crate reads only files whose channels are called R, G and B; environment maps come with layers
 //! (`diffuse.R`) or as luminance alone (`Y`).

@@ -1,4 +1,4 @@
-//! Images read from files: PNG, JPEG, BMP, TGA, Radiance HDR and OpenEXR.
+//! Images read from files: PNG, JPEG, BMP, TGA, Radiance HDR and `OpenEXR`.
 //!
 //! 8- and 16-bit images are taken as sRGB and made linear unless read raw; HDR and EXR are linear already. Gray images,
 //! palettes and alpha are understood. Files are not trusted: sizes are limited before anything is allocated.

@@ -1,7 +1,8 @@
 //! Stanford PLY: ASCII and binary, any order and type of properties.
 //!
 //! Vertices: `x y z`, optional `nx ny nz`, `u v` or `s t`, and `r g b` or `red green blue` (integers are taken as
-//! sRGB, as in Mitsuba). Faces: a list `vertex_index` or `vertex_indices` of three or more. All else is skipped.
+//! sRGB). Faces: a list `vertex_index` or `vertex_indices` of three or more corners, where Mitsuba 3.9.1 takes triangles
+//! only. All else is skipped.
 //! Format: Turk, "The PLY Polygon File Format", 1994.
 
 use std::path::Path;
@@ -249,13 +250,14 @@ fn read_body(header: &Header<'_>, numbers: &mut impl Numbers) -> Parse<Mesh> {
                 element.count, element.name
             ));
         }
-        match element.name {
-            "vertex" if !std::mem::replace(&mut known[0], true) => {
-                read_vertices(element, numbers, &mut mesh)?
-            }
-            "face" if !std::mem::replace(&mut known[1], true) => read_faces(element, numbers, &mut mesh)?,
-            "vertex" | "face" => return Err(format!("two elements '{}'", element.name)),
-            _ => skip(element, numbers)?,
+        let place = ["vertex", "face"].iter().position(|name| *name == element.name);
+        if place.is_some_and(|place| std::mem::replace(&mut known[place], true)) {
+            return Err(format!("two elements '{}'", element.name));
+        }
+        match place {
+            Some(0) => read_vertices(element, numbers, &mut mesh)?,
+            Some(_) => read_faces(element, numbers, &mut mesh)?,
+            None => skip(element, numbers)?,
         }
     }
     match known {

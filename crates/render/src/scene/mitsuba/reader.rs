@@ -115,7 +115,7 @@ impl Reader {
         parent: usize,
         depth: usize,
     ) -> Result<()> {
-        node.children().filter(|child| child.is_element()).try_for_each(|child| {
+        node.children().filter(roxmltree::Node::is_element).try_for_each(|child| {
             let element = Element::read(child, &file.source, &mut self.parameters)?;
             if depth > DEPTH_LIMIT {
                 return Err(element.error(format_args!("nested deeper than {DEPTH_LIMIT}")));
@@ -239,7 +239,7 @@ impl Reader {
     ) -> Result<DMat4> {
         element.allow(&["name"], &[])?;
         let mut transform = DMat4::IDENTITY;
-        for child in node.children().filter(|child| child.is_element()) {
+        for child in node.children().filter(roxmltree::Node::is_element) {
             let operation = Element::read(child, &file.source, &mut self.parameters)?;
             if child.children().any(|nested| nested.is_element()) {
                 return Err(operation.error("takes no nested elements"));

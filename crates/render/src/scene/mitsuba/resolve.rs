@@ -77,10 +77,8 @@ impl Resolver {
             return Ok(*place);
         }
         let similar = similar(id, self.ids.keys());
-        let hint = match similar.is_empty() {
-            true => String::new(),
-            false => format!("; similar: {}", similar.join(", ")),
-        };
+        let hint =
+            if similar.is_empty() { String::new() } else { format!("; similar: {}", similar.join(", ")) };
         let message = format!("<ref>: no object has the id '{}'{hint}", super::values::shorten(id));
         Err(Error::Scene { location: from.clone(), message })
     }

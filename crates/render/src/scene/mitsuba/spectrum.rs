@@ -10,7 +10,8 @@ use crate::scene::spectrum::{self, Role};
 /// The largest table, in bytes.
 const TABLE_LIMIT: u64 = 16 << 20;
 
-/// What a spectrum of this name means to a plugin of this kind.
+/// What a spectrum of this name means to a plugin of this kind. Coefficients of media are unbounded; Mitsuba 3.9.1 clamps
+/// tabulated ones to 1 as if they were reflectances.
 pub(super) fn role(kind: Kind, name: &str) -> Role {
     match (kind, name) {
         (Kind::Emitter, _) => Role::Emission,

@@ -53,6 +53,7 @@ pub(super) fn check(name: &str, transform: DMat4) -> std::result::Result<DMat4, 
     Ok(transform)
 }
 
+/// The axis need not be a unit vector. (Mitsuba 3.9.1 puts it into the formula as it is and gets no rotation.)
 fn rotate(operation: &Element<'_>) -> Result<DMat4> {
     let axis = DVec3::from(vector(operation, Some(0.0))?).try_normalize();
     let axis = axis.ok_or_else(|| operation.error("the axis has no direction"))?;
