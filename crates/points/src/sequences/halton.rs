@@ -67,15 +67,17 @@ struct Axis {
 
 impl Axis {
     fn new(base: u64, key: Seed) -> Self {
-        let powers = std::iter::successors(Some(base), |power| Some(power * base));
-        let count = 1 + powers.clone().take_while(|&power| power < CELLS).count();
-        let cells = u128::from(base).pow(count as u32);
+        let (mut count, mut cells) = (0, 1);
+        while cells < u128::from(CELLS) {
+            cells *= u128::from(base);
+            count += 1;
+        }
         Self {
             base,
             // floor((2^128 − 1) / cells) = floor(2^128 / cells), except that 2^40 divides exactly.
             cell: u128::MAX / cells + u128::from(cells.is_power_of_two()),
             tail: key.split(0, 0).bits64(),
-            levels: (1..=count as u64).map(|level| key.split(0, level).bits64()).collect(),
+            levels: (1..=count).map(|level| key.split(0, level).bits64()).collect(),
         }
     }
 

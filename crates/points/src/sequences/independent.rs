@@ -9,6 +9,7 @@ use super::Entry;
 use crate::convert::unit_f64;
 use crate::point_set::check_length;
 use crate::scramble::Scrambling;
+use crate::seed::mix;
 use crate::{PointSet, Seed};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -23,14 +24,22 @@ pub(super) const ENTRY: Entry = Entry {
 /// Independent uniform points.
 #[derive(Debug)]
 pub struct Independent {
-    keys: Vec<Seed>,
+    keys: Vec<[u64; 2]>,
 }
 
 impl Independent {
     /// Points of `dims` coordinates.
     pub fn new(dims: usize, seed: Seed) -> Self {
-        Self { keys: (0..dims as u64).map(|dim| seed.dimension(dim)).collect() }
+        let keys = (0..dims as u64).map(|dim| seed.dimension(dim));
+        Self { keys: keys.map(|key| [key.split(0, 0).bits64(), key.split(0, 1).bits64()]).collect() }
     }
+}
+
+/// Two rounds with two keys: a single round would be one of `SplitMix64`'s streams, all of which are
+/// parts of one cycle, so that two dimensions could overlap.
+#[inline]
+fn uniform(index: u64, [first, second]: [u64; 2]) -> f64 {
+    unit_f64(mix(mix(first.wrapping_add(index)) ^ second))
 }
 
 impl PointSet for Independent {
@@ -39,14 +48,14 @@ impl PointSet for Independent {
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {
-        unit_f64(self.keys[dim].split(0, index).bits64())
+        uniform(index, self.keys[dim])
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
         check_length(&rows, self.dims(), out.len());
         for (index, point) in rows.zip(out.chunks_exact_mut(self.dims())) {
-            for (x, key) in point.iter_mut().zip(&self.keys) {
-                *x = unit_f64(key.split(0, index).bits64());
+            for (x, &keys) in point.iter_mut().zip(&self.keys) {
+                *x = uniform(index, keys);
             }
         }
     }
