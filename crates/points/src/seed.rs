@@ -108,7 +108,9 @@ mod tests {
     fn numbered_children_of_all_kinds_are_different() {
         let parents = (0..100).map(Seed::new);
         let mut seen: Vec<u64> = parents
-            .flat_map(|parent| (0..50).flat_map(move |n| (0..4).map(move |tag| parent.split(tag, n).bits64())))
+            .flat_map(|parent| {
+                (0..50).flat_map(move |n| (0..4).map(move |tag| parent.split(tag, n).bits64()))
+            })
             .collect();
         seen.sort_unstable();
         seen.dedup();

@@ -43,7 +43,9 @@ fn order_and_size_of_access_do_not_matter() {
     // Odd starts and lengths cross the blocks that the fast paths work in.
     for dims in [1, 2, 3, 7, 8, 33, 300, 1500] {
         on_all(dims, 2, |name, points| {
-            for range in [0..1, 0..70, 5..61, 1021..1030, (1 << 33) - 3..(1 << 33) + 4, u64::MAX - 2..u64::MAX] {
+            for range in
+                [0..1, 0..70, 5..61, 1021..1030, (1 << 33) - 3..(1 << 33) + 4, u64::MAX - 2..u64::MAX]
+            {
                 let filled = rows(points, range.clone());
                 for (i, x) in filled.iter().enumerate().rev().step_by(1 + dims / 30) {
                     let expected = points.coord(range.start + (i / dims) as u64, i % dims);
@@ -68,9 +70,14 @@ fn long_fills_have_the_bits_of_single_coordinates() {
 fn fewer_dimensions_are_the_first_of_more() {
     for entry in sequences::ALL {
         for scramble in entry.accepts {
-            let build = |dims| sequences::build(entry.name, dims, scramble.name(), Seed::new(4)).expect("valid");
+            let build =
+                |dims| sequences::build(entry.name, dims, scramble.name(), Seed::new(4)).expect("valid");
             let (few, many) = (build(2), build(9));
-            assert!((0..50).all(|i| (0..2).all(|dim| few.coord(i, dim) == many.coord(i, dim))), "{}", entry.name);
+            assert!(
+                (0..50).all(|i| (0..2).all(|dim| few.coord(i, dim) == many.coord(i, dim))),
+                "{}",
+                entry.name
+            );
         }
     }
 }
@@ -150,7 +157,8 @@ fn every_file_of_a_family_is_registered() {
     let files = |folder: &str| -> BTreeSet<String> {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder);
         let entries = std::fs::read_dir(folder).expect("the source tree is there");
-        let names = entries.map(|entry| entry.expect("readable").path().file_stem().expect("named").to_owned());
+        let names =
+            entries.map(|entry| entry.expect("readable").path().file_stem().expect("named").to_owned());
         names.map(|name| name.to_string_lossy().into_owned()).filter(|name| name != "mod").collect()
     };
     let sequences: BTreeSet<_> = sequences::ALL.iter().map(|entry| entry.name.to_owned()).collect();

@@ -86,7 +86,10 @@ fn elementary_intervals_hold_the_same_number_of_sobol_points() {
                         });
                         counts[cell] += 1;
                     }
-                    assert!(counts.iter().all(|&count| count == 1 << t), "s = {dims}, {scramble}, {depths:?}");
+                    assert!(
+                        counts.iter().all(|&count| count == 1 << t),
+                        "s = {dims}, {scramble}, {depths:?}"
+                    );
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Scrambles in base 2: bijections digit by digit, with the variance that theory gives them.
 
+use evenlight_points::convert::unit_f64;
 use evenlight_points::scramble::owen::{nested_uniform_scramble_32, nested_uniform_scramble_64};
 use evenlight_points::scramble::{self, Scrambling};
 use evenlight_points::sequences::halton::Halton;
@@ -24,7 +25,9 @@ fn first_digits_depend_on_first_digits_only_and_are_permuted() {
     for seed in (0..20).map(|number| Seed::new(number).bits32()) {
         let image = |prefix: u32| nested_uniform_scramble_32(prefix << 20 | 0x9_a7e3, seed) >> 20;
         let mut images: Vec<_> = (0..1 << 12).map(image).collect();
-        assert!((0..1 << 12).all(|prefix| nested_uniform_scramble_32(prefix << 20, seed) >> 20 == image(prefix)));
+        assert!(
+            (0..1 << 12).all(|prefix| nested_uniform_scramble_32(prefix << 20, seed) >> 20 == image(prefix))
+        );
         images.sort_unstable();
         assert!(images.into_iter().eq(0..1 << 12));
     }
@@ -56,7 +59,7 @@ fn owen_scrambling_in_one_dimension_has_the_exact_variance() {
         let scale = 12.0 * (n as f64).powi(3);
         let mean = |seed: Seed| -> f64 {
             let words = (0..n).map(|i| nested_uniform_scramble_64(i << (64 - m), seed.bits64()));
-            words.map(|word| evenlight_points::convert::unit_f64(word)).sum::<f64>() / n as f64
+            words.map(unit_f64).sum::<f64>() / n as f64
         };
         let ratio = scale * squared_error(n, 0.5, mean);
         assert!((ratio - 1.0).abs() < 0.05, "64 bits, n = {n}: {ratio}");
@@ -76,7 +79,7 @@ fn a_digital_shift_has_the_exact_variance() {
         let apply = Scrambling::DigitalShift.entry().apply;
         let mean = |seed: Seed| -> f64 {
             let words = (0..n).map(|i| apply(i.reverse_bits(), seed));
-            words.map(|word| evenlight_points::convert::unit_f64(word)).sum::<f64>() / n as f64
+            words.map(unit_f64).sum::<f64>() / n as f64
         };
         let ratio = 12.0 * (n * n) as f64 * squared_error(n, 0.5, mean);
         assert!((ratio - 1.0).abs() < 0.05, "n = {n}: {ratio}");

@@ -40,9 +40,8 @@ mod tests {
         assert_eq!(SOBOL_DIMS, 21_201);
         assert_eq!(sobol_initial(0), (1, vec![]));
         assert_eq!(sobol_initial(5), (19, vec![1, 1, 3, 3]));
-        let last = vec![
-            1, 1, 7, 11, 15, 7, 37, 239, 337, 245, 1557, 3681, 7357, 9639, 27367, 26869, 114603, 86317,
-        ];
+        let last =
+            vec![1, 1, 7, 11, 15, 7, 37, 239, 337, 245, 1557, 3681, 7357, 9639, 27367, 26869, 114603, 86317];
         assert_eq!(sobol_initial(SOBOL_DIMS - 1), (524_263, last));
     }
 }

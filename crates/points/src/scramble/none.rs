@@ -3,9 +3,5 @@
 
 use super::{Entry, Scrambling};
 
-pub(super) const ENTRY: Entry = Entry {
-    scramble: Scrambling::None,
-    name: "none",
-    cite: "-",
-    apply: |word, _| word,
-};
+pub(super) const ENTRY: Entry =
+    Entry { scramble: Scrambling::None, name: "none", cite: "-", apply: |word, _| word };

@@ -5,10 +5,10 @@
 //! 0 included (A. B. Owen, *On dropping the first Sobol' point*, 2020), and any row costs the same.
 
 use super::Entry;
+use crate::Seed;
 use crate::data::{SOBOL_DIMS, sobol_initial};
 use crate::digital_net::{BITS, DigitalNet};
 use crate::scramble::Scrambling;
-use crate::Seed;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sobol",
