@@ -38,3 +38,6 @@ pub trait RayKernel: Send + Sync {
     /// Whether any triangle lies at `0 < t < ray.t_max`.
     fn occluded(&self, ray: &Ray) -> bool;
 }
+pub fn build(_: &str, _: TriangleSoup<'_>, _: Option<&std::path::Path>) -> crate::Result<Box<dyn RayKernel>> {
+    unimplemented!()
+}
