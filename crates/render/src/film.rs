@@ -123,7 +123,7 @@ pub struct Film {
     pub height: u32,
     /// How many independent estimates there are.
     pub replicates: u32,
-    /// The mean color of each replicate and pixel; zero where it is not complete.
+    /// The mean color of each replicate and pixel; NaN where it is not complete.
     pub colors: Vec<[f32; 3]>,
     /// How many replicates of each pixel are complete.
     pub completed: Vec<u32>,
@@ -143,7 +143,7 @@ impl Film {
             width,
             height,
             replicates,
-            colors: vec![[0.0; 3]; pixels * replicates as usize],
+            colors: vec![[f32::NAN; 3]; pixels * replicates as usize],
             completed: vec![0; pixels],
             albedo: vec![[0.0; 3]; pixels],
             normal: vec![[0.0; 3]; pixels],

@@ -151,6 +151,21 @@ impl World {
     pub fn bounds(&self) -> SceneSphere {
         self.bounds
     }
+
+    /// How many shapes there are.
+    pub fn shape_count(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// How many triangles the ray kernel holds.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_shape.len()
+    }
+
+    /// The name of the ray kernel.
+    pub fn kernel_name(&self) -> &'static str {
+        self.kernel.name()
+    }
 }
 
 impl Vertex<'_> {
