@@ -8,6 +8,7 @@ pub mod accel;
 pub mod bsdf;
 mod error;
 pub mod geometry;
+pub mod output;
 pub mod scene;
 pub mod texture;
 
