@@ -5,6 +5,7 @@ import doctest
 import importlib
 import pickle
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -96,8 +97,9 @@ def test_scipy_draws_integers(name: str, settings: dict[str, Any]) -> None:
 
 @every_engine
 def test_scipy_integrates_with_it(name: str, settings: dict[str, Any]) -> None:
-    def f(x: npt.NDArray[np.float64]) -> Any:
-        return np.prod(2 * x, axis=0)
+    def f(x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        product: npt.NDArray[np.float64] = 8 * x[0] * x[1] * x[2]
+        return product
 
     found = qmc_quad(f, np.zeros(3), np.ones(3), n_points=1024, n_estimates=8, qrng=engine(name, settings))
     assert found.integral == pytest.approx(1, abs=max(6 * found.standard_error, 0.02))
@@ -214,7 +216,7 @@ def test_wrong_arrays_are_refused() -> None:
     with pytest.raises(TypeError, match="writable array of float64 or float32, not int64"):
         sobol.points(0, 8, np.empty((8, 2), dtype=np.int64))  # type: ignore[type-var]
     with pytest.raises(TypeError, match="out must be a numpy array, not list"):
-        sobol.points(0, 8, [[0.0, 0.0]] * 8)  # type: ignore[type-var]
+        sobol.points(0, 8, [[0.0, 0.0]] * 8)  # type: ignore[call-overload]
     constant = np.empty((8, 2))
     constant.flags.writeable = False
     with pytest.raises(TypeError, match="out must be a writable array"):
@@ -243,7 +245,7 @@ def test_wrong_arrays_are_refused() -> None:
         (lambda: Sobol(2).points(-1, 3), "start must be at least 0, not -1"),
     ],
 )
-def test_wrong_values_are_named(build: Any, message: str) -> None:
+def test_wrong_values_are_named(build: Callable[[], object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         build()
 
@@ -251,14 +253,14 @@ def test_wrong_values_are_named(build: Any, message: str) -> None:
 @pytest.mark.parametrize(
     ("build", "message"),
     [
-        (lambda: Sobol(2.5), "d must be an integer, not float"),
-        (lambda: Sobol(2, seed="7"), "seed must be an integer, not str"),
-        (lambda: Sobol(2, scramble=True), "scramble must be a string, not bool"),
-        (lambda: Sobol(2).random(1.5), "n must be an integer, not float"),
+        (lambda: Sobol(2.5), "d must be an integer, not float"),  # type: ignore[arg-type]
+        (lambda: Sobol(2, seed="7"), "seed must be an integer, not str"),  # type: ignore[arg-type]
+        (lambda: Sobol(2, scramble=True), "scramble must be a string, not bool"),  # type: ignore[arg-type]
+        (lambda: Sobol(2).random(1.5), "n must be an integer, not float"),  # type: ignore[arg-type]
         (lambda: Sobol(2, seed=1, rng=1), "two names for the same argument"),
     ],
 )
-def test_wrong_types_are_named(build: Any, message: str) -> None:
+def test_wrong_types_are_named(build: Callable[[], object], message: str) -> None:
     with pytest.raises(TypeError, match=message):
         build()
 
@@ -293,7 +295,8 @@ def test_every_registered_sequence_has_its_class_and_its_own_default() -> None:
         built = points.build(info.name, 2, seed=4)
         assert type(built) is points.SEQUENCES[info.name]
         assert built.scramble == info.scrambles[0]
-        assert points.build(info.name, info.most_dims if info.most_dims < 10**5 else 100).points(1, 2).max() < 1
+        widest = points.build(info.name, min(info.most_dims, 10**5))
+        assert widest.points(1, 2).max() < 1
 
 
 def test_the_expression_that_builds_an_engine_is_its_representation() -> None:

@@ -1,6 +1,5 @@
 """What all sequences share: rows that are a pure function of their number, behind SciPy's protocol."""
 
-import copy
 import operator
 from typing import Any, ClassVar, Self, SupportsIndex, TypeAlias, TypeVar, overload
 
@@ -46,7 +45,9 @@ class Engine(qmc.QMCEngine):
     sequence: ClassVar[str]
     """The name in the registry, the same as in Rust, on the command line and in reports."""
 
-    def __init__(self, d: SupportsIndex, *, scramble: str, seed: SeedLike = None, rng: SeedLike = None) -> None:
+    def __init__(
+        self, d: SupportsIndex, *, scramble: str, seed: SeedLike = None, rng: SeedLike = None
+    ) -> None:
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names for the same argument; give one of them")
         dims = _integer("d", d, 1)
@@ -54,10 +55,9 @@ class Engine(qmc.QMCEngine):
         self.scramble = scramble
         self._core = self._build(dims)
         super().__init__(dims)
-        # SciPy's base class draws from these for its own purposes; make them follow the seed too.
+        # `scipy.integrate.qmc_quad` builds its replicates from these two.
+        self._init_quad = self._spec()
         self.rng = np.random.default_rng(self.seed)
-        self.rng_seed = copy.deepcopy(self.rng)
-        self._init_quad = self._spec()  # what `scipy.stats.qmc_quad` builds its replicates from
 
     @overload
     def points(self, start: SupportsIndex, stop: SupportsIndex) -> npt.NDArray[np.float64]: ...
@@ -110,7 +110,7 @@ class Engine(qmc.QMCEngine):
         self._core.fill(first, last, out)
         return out
 
-    def fast_forward(self, n: SupportsIndex) -> Self:
+    def fast_forward(self, n: SupportsIndex) -> Self:  # type: ignore[override]  # any integer will do
         """Skip the next `n` rows of `random`, at no cost.
 
         Parameters
@@ -135,6 +135,7 @@ class Engine(qmc.QMCEngine):
             The engine itself.
         """
         self.num_generated = 0
+        self.rng = np.random.default_rng(self.seed)
         return self
 
     def __repr__(self) -> str:
@@ -149,9 +150,11 @@ class Engine(qmc.QMCEngine):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Build the compiled part again."""
         self.__dict__.update(state)
-        self._core = self._build(self.d)
+        self._core = self._build(int(self.d))
 
-    def _random(self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1) -> npt.NDArray[np.float64]:
+    def _random(  # type: ignore[override]  # any integer will do
+        self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1
+    ) -> npt.NDArray[np.float64]:
         del workers  # SciPy's own engines take it; here one core outruns the memory
         rows = _integer("n", n, 0)
         return self.points(self.num_generated, self.num_generated + rows)

@@ -90,7 +90,9 @@ class Sobol(Engine):
             )
         return self.random(n)
 
-    def _random(self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1) -> npt.NDArray[np.float64]:
+    def _random(  # type: ignore[override]  # any integer will do
+        self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1
+    ) -> npt.NDArray[np.float64]:
         rows = super()._random(n, workers=workers)
         count = len(rows)
         if count & (count - 1) and self.num_generated == 0 and not self._warned:
