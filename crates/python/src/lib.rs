@@ -1,6 +1,9 @@
 //! The door between the Rust core and Python: conversions only, no mathematics.
 
+mod errors;
 mod output;
+mod points;
+mod render;
 
 use pyo3::prelude::*;
 
@@ -8,7 +11,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_function(wrap_pyfunction!(output::check_writable, module)?)?;
-    module.add_function(wrap_pyfunction!(output::write_exr, module)?)?;
-    module.add_function(wrap_pyfunction!(output::write_png, module)?)
+    output::register(module)?;
+    points::register(module)?;
+    render::register(module)
 }
