@@ -15,6 +15,7 @@ use crate::sensor::Sensor;
 
 mod assemble;
 pub mod build;
+pub mod materials;
 pub mod mesh;
 pub mod node;
 pub mod properties;
