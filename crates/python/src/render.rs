@@ -66,9 +66,10 @@ fn load_scene(
     lenient: bool,
     allow_outside: bool,
     embree_library: Option<PathBuf>,
-    kernel: String,
+    kernel: &str,
 ) -> PyResult<Scene> {
     let files = mitsuba::LoadOptions { parameters, allow_outside };
+    let kernel = kernel.parse().map_err(raise)?;
     let options = SceneOptions { lenient, kernel, embree_library };
     let load = || Inner::build(&*mitsuba::load(&path, &files)?, &options);
     Ok(Scene { inner: Arc::new(py.detach(load).map_err(raise)?) })
@@ -79,7 +80,8 @@ fn settings_from(given: &Bound<'_, PyDict>) -> PyResult<Settings> {
     let get = |name: &str| given.as_any().get_item(name);
     let limit: Option<i64> = get("max_depth")?.extract()?;
     let no_limit = |depth: i64| if depth == -1 { Ok(u32::MAX) } else { u32::try_from(depth) };
-    let refuse = |_| pyo3::exceptions::PyValueError::new_err("max_depth must be -1 (no limit) or not negative");
+    let refuse =
+        |_| pyo3::exceptions::PyValueError::new_err("max_depth must be -1 (no limit) or not negative");
     Ok(Settings {
         integrator: get("integrator")?.extract()?,
         sampler: get("sampler")?.extract()?,
@@ -114,7 +116,9 @@ fn render<'py>(
     };
     let film = py.detach(|| engine::render(&scene.inner, &settings, &mut go_on)).map_err(raise)?;
     let partial = raised.is_some();
-    if let Some(error) = raised.filter(|error| !error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py)) {
+    if let Some(error) =
+        raised.filter(|error| !error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py))
+    {
         return Err(error);
     }
     let metadata = PyDict::new(py);

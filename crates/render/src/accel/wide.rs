@@ -72,7 +72,13 @@ impl Wide {
             (total + f64::from(b.half_area()), largest.max(b.half_area()))
         });
         if std::env::var("SPLIT").is_ok() {
-        split_aabbs_preset(&mut boxes, &mut indices, &triangles, (total / triangles.len() as f64) as f32, largest);
+            split_aabbs_preset(
+                &mut boxes,
+                &mut indices,
+                &triangles,
+                (total / triangles.len() as f64) as f32,
+                largest,
+            );
         }
         let ratio = std::env::var("RATIO").map_or(0.2, |s| s.parse().unwrap());
         let mut bvh = PlocBuilder::with_capacity(boxes.len()).build(
@@ -84,7 +90,14 @@ impl Wide {
         );
         ReinsertionOptimizer::default().run(&mut bvh, ratio, None);
         let tree = collapse::collapse(&bvh, soup);
-        eprintln!("nodes {} leaves {} depth {} children/node {:.2} tris/leaf {:.2}", tree.nodes.len(), tree.leaves.len(), tree.depth, (tree.nodes.len() + tree.leaves.len()) as f32 / tree.nodes.len() as f32, boxes.len() as f32 / tree.leaves.len() as f32);
+        eprintln!(
+            "nodes {} leaves {} depth {} children/node {:.2} tris/leaf {:.2}",
+            tree.nodes.len(),
+            tree.leaves.len(),
+            tree.depth,
+            (tree.nodes.len() + tree.leaves.len()) as f32 / tree.nodes.len() as f32,
+            boxes.len() as f32 / tree.leaves.len() as f32
+        );
         Self { tree, extent, instructions }
     }
 
@@ -117,17 +130,17 @@ impl RayKernel for Wide {
             // SAFETY: `detect` found the CPU features.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { closest_avx2(self, ray) },
-            Instructions::Portable => self.with_stack(|stack| {
-                // SAFETY: arrays run everywhere; the stack has the right size.
-                unsafe {
-                    traverse::closest::<lanes::Array<{ node::NODE_WIDTH }>, lanes::Array<{ leaf::LEAF_WIDTH }>>(
-                        &self.tree,
-                        self.extent,
-                        ray,
-                        stack,
-                    )
-                }
-            }),
+            Instructions::Portable => {
+                self.with_stack(|stack| {
+                    // SAFETY: arrays run everywhere; the stack has the right size.
+                    unsafe {
+                        traverse::closest::<
+                            lanes::Array<{ node::NODE_WIDTH }>,
+                            lanes::Array<{ leaf::LEAF_WIDTH }>,
+                        >(&self.tree, self.extent, ray, stack)
+                    }
+                })
+            }
         }
     }
 
@@ -136,17 +149,17 @@ impl RayKernel for Wide {
             // SAFETY: `detect` found the CPU features.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { occluded_avx2(self, ray) },
-            Instructions::Portable => self.with_stack(|stack| {
-                // SAFETY: arrays run everywhere; the stack has the right size.
-                unsafe {
-                    traverse::occluded::<lanes::Array<{ node::NODE_WIDTH }>, lanes::Array<{ leaf::LEAF_WIDTH }>>(
-                        &self.tree,
-                        self.extent,
-                        ray,
-                        stack,
-                    )
-                }
-            }),
+            Instructions::Portable => {
+                self.with_stack(|stack| {
+                    // SAFETY: arrays run everywhere; the stack has the right size.
+                    unsafe {
+                        traverse::occluded::<
+                            lanes::Array<{ node::NODE_WIDTH }>,
+                            lanes::Array<{ leaf::LEAF_WIDTH }>,
+                        >(&self.tree, self.extent, ray, stack)
+                    }
+                })
+            }
         }
     }
 }
@@ -157,9 +170,12 @@ impl RayKernel for Wide {
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt")]
 unsafe fn closest_avx2(kernel: &Wide, ray: &Ray) -> Option<TriangleHit> {
     // SAFETY: the caller promises the CPU; the stack has the right size.
-    kernel.with_stack(#[inline(always)] |stack| unsafe {
-        traverse::closest::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
-    })
+    kernel.with_stack(
+        #[inline(always)]
+        |stack| unsafe {
+            traverse::closest::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
+        },
+    )
 }
 
 /// # Safety
@@ -168,7 +184,10 @@ unsafe fn closest_avx2(kernel: &Wide, ray: &Ray) -> Option<TriangleHit> {
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt")]
 unsafe fn occluded_avx2(kernel: &Wide, ray: &Ray) -> bool {
     // SAFETY: the caller promises the CPU; the stack has the right size.
-    kernel.with_stack(#[inline(always)] |stack| unsafe {
-        traverse::occluded::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
-    })
+    kernel.with_stack(
+        #[inline(always)]
+        |stack| unsafe {
+            traverse::occluded::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
+        },
+    )
 }

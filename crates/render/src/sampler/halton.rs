@@ -21,8 +21,15 @@ pub(crate) const ENTRY: Entry = Entry {
 const DIMENSIONS: usize = 1024;
 
 static PRIMES: LazyLock<Vec<u32>> = LazyLock::new(|| {
-    let is_prime = |n: &u32| (2..).take_while(|d| d * d <= *n).all(|d| n % d != 0);
-    (2..).filter(is_prime).take(DIMENSIONS).collect()
+    let mut primes: Vec<u32> = Vec::with_capacity(DIMENSIONS);
+    let mut candidate = 2_u32;
+    while primes.len() < DIMENSIONS {
+        if primes.iter().all(|&prime| !candidate.is_multiple_of(prime)) {
+            primes.push(candidate);
+        }
+        candidate += 1;
+    }
+    primes
 });
 
 fn fill(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
@@ -44,8 +51,8 @@ fn scrambled_radical_inverse(prime: u32, index: u32, key: Seed) -> f32 {
         let hash = key.split(TAG, prefix).bits64();
         let digit = rest % prime;
         rest /= prime;
-        let factor = 1 + ((hash >> 32) * u64::from(prime - 1) >> 32);
-        let shift = (hash & 0xffff_ffff) * u64::from(prime) >> 32;
+        let factor = 1 + (((hash >> 32) * u64::from(prime - 1)) >> 32);
+        let shift = ((hash & 0xffff_ffff) * u64::from(prime)) >> 32;
         place *= scale;
         inverse += place * ((factor * u64::from(digit) + shift) % u64::from(prime)) as f64;
         // leaves of the tree of prefixes are told apart by level and digits

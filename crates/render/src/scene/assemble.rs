@@ -118,7 +118,7 @@ impl Assembly {
     fn finish(self, builder: Builder, options: &SceneOptions, parts: SceneParts) -> Result<Scene> {
         let bounds = self.bounds();
         let soup = TriangleSoup { positions: &self.positions, indices: &self.indices };
-        let kernel = accel::build(&options.kernel, soup, options.embree_library.as_deref())?;
+        let kernel = accel::build(options.kernel, &soup, options.embree_library.as_deref())?;
         let selection = Selection::by_power(&self.emitters, &bounds);
         let environments = self.emitters.iter().enumerate();
         let environments =

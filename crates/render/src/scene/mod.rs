@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::Result;
+use crate::accel::KernelChoice;
 use crate::emitter::selection::Selection;
 use crate::emitter::{Emitter, EmitterHit, LightSample};
 use crate::film::FilmSettings;
@@ -26,8 +27,8 @@ pub mod world;
 pub struct SceneOptions {
     /// Unknown plugins and parameters become warnings.
     pub lenient: bool,
-    /// The ray kernel's name; empty for the best one there is.
-    pub kernel: String,
+    /// Which ray kernel to build.
+    pub kernel: KernelChoice,
     /// The Embree 4 shared library, where there is one.
     pub embree_library: Option<PathBuf>,
 }

@@ -94,7 +94,7 @@ struct SphericalRectangle {
 
 impl SphericalRectangle {
     fn new(light: &ParallelogramLight, from: Vec3) -> Self {
-        let lengths = light.edges.map(|edge| edge.length());
+        let lengths = light.edges.map(Vec3::length);
         let (x, y) = (light.edges[0] / lengths[0], light.edges[1] / lengths[1]);
         let to_corner = light.corner - from;
         let z0 = -to_corner.dot(x.cross(y)).abs();

@@ -95,7 +95,8 @@ impl<L: Lanes> SlabRay<L> {
         let steepest = ray.direction.abs().max_element();
         // Within the scene t · steepest stays below 2 · reach, hence the capped ray strays by less than 2 · reach / CAP.
         let reach = extent + ray.origin.abs().max_element();
-        let inverse = (Vec3::ONE / ray.direction.abs().max(Vec3::splat(steepest / CAP))).copysign(ray.direction);
+        let inverse =
+            (Vec3::ONE / ray.direction.abs().max(Vec3::splat(steepest / CAP))).copysign(ray.direction);
         let margin = inverse.abs() * (4.0 / CAP * reach);
         // SAFETY: the caller promises the CPU.
         unsafe {

@@ -103,7 +103,8 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
                     continue;
                 }
                 let distances = entry.to_array();
-                let at = |slot: usize| pack(*distances.get_unchecked(slot), *node.children.get_unchecked(slot));
+                let at =
+                    |slot: usize| pack(*distances.get_unchecked(slot), *node.children.get_unchecked(slot));
                 let a = at(first);
                 let b = at(mask.trailing_zeros() as usize);
                 mask &= mask - 1;
