@@ -1,8 +1,17 @@
 //! The door between the Rust core and Python: conversions only, no mathematics.
+
+mod errors;
+mod output;
+mod points;
+mod render;
+
 use pyo3::prelude::*;
 
 /// The private extension module behind the `evenlight` package.
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    output::register(module)?;
+    points::register(module)?;
+    render::register(module)
 }

@@ -11,11 +11,18 @@ use std::path::{Component, Path, PathBuf};
 use crate::{Error, Result};
 
 /// The folders of one scene file.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folder {
     root: PathBuf,
     search: Vec<PathBuf>,
     allow_outside: bool,
+}
+
+/// The current folder, for scenes that come from no file.
+impl Default for Folder {
+    fn default() -> Self {
+        Self::new(".", false)
+    }
 }
 
 impl Folder {

@@ -153,3 +153,18 @@ pub struct Node {
     /// Where its files are looked up and, unless allowed, must be.
     pub folder: Arc<Folder>,
 }
+
+impl Node {
+    /// A plugin with nothing but defaults.
+    pub fn empty(kind: Kind, plugin: &str) -> Self {
+        Self {
+            kind,
+            plugin: plugin.to_owned(),
+            id: None,
+            location: Location::default(),
+            parameters: Vec::new(),
+            children: Vec::new(),
+            folder: Arc::default(),
+        }
+    }
+}
