@@ -39,3 +39,22 @@ pub fn unit_f32(word: u32) -> f32 {
 pub fn truncate_to_f32(unit: f64) -> f32 {
     (unit * f64::from(1_u32 << 24)) as i32 as f32 * (1.0 / (1_u32 << 24) as f32)
 }
+
+/// A floating-point number made of the first digits of a word, for loops in either precision.
+pub(crate) trait Unit: Copy {
+    fn from_word(word: u64) -> Self;
+}
+
+impl Unit for f64 {
+    #[inline(always)]
+    fn from_word(word: u64) -> Self {
+        unit_f64(word)
+    }
+}
+
+impl Unit for f32 {
+    #[inline(always)]
+    fn from_word(word: u64) -> Self {
+        unit_f32((word >> 32) as u32)
+    }
+}
