@@ -5,7 +5,7 @@ from typing import final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["PointSet", "__version__", "available_sequences"]
+__all__ = ["PointSet", "__version__", "available_sequences", "replicate_seed"]
 __version__: str
 
 # --- points ---
@@ -18,6 +18,7 @@ class PointSet:
     def coord(self, index: int, dim: int) -> float: ...
     def fill(self, start: int, stop: int, out: npt.NDArray[np.float64] | npt.NDArray[np.float32]) -> None: ...
 
+def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], int]]: ...
 
 # --- end of points ---

@@ -39,3 +39,39 @@ pub fn unit_f32(word: u32) -> f32 {
 pub fn truncate_to_f32(unit: f64) -> f32 {
     (unit * f64::from(1_u32 << 24)) as i32 as f32 * (1.0 / (1_u32 << 24) as f32)
 }
+
+/// A floating-point number made of the first digits of a word, for loops in either precision.
+pub(crate) trait Unit: Copy {
+    fn from_word(word: u64) -> Self;
+}
+
+impl Unit for f64 {
+    #[inline(always)]
+    fn from_word(word: u64) -> Self {
+        unit_f64(word)
+    }
+}
+
+impl Unit for f32 {
+    #[inline(always)]
+    fn from_word(word: u64) -> Self {
+        unit_f32((word >> 32) as u32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_near_the_end_stay_below_one_and_in_their_intervals() {
+        for bit in 0..64 {
+            let word = u64::MAX << bit;
+            let (double, single) = (f64::from_word(word), f32::from_word(word));
+            assert!(double < 1.0 && single < 1.0 && f64::from(single) <= double, "{word:x}");
+            // The interval of the leading ones: [1 − 2^(bit − 64), 1).
+            assert!(double >= 1.0 - 2f64.powi((bit - 64).max(-53)), "{word:x}");
+            assert_eq!(truncate_to_f32(double), single);
+        }
+    }
+}

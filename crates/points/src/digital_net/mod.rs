@@ -10,7 +10,7 @@ mod kernels;
 
 use std::ops::Range;
 
-use crate::convert::unit_f64;
+use crate::convert::{Unit, unit_f64};
 use crate::point_set::check_length;
 use crate::scramble::Scrambling;
 use crate::{PointSet, Seed};
@@ -102,18 +102,9 @@ impl DigitalNet {
             changed &= changed - 1;
         }
     }
-}
 
-impl PointSet for DigitalNet {
-    fn dims(&self) -> usize {
-        self.dims
-    }
-
-    fn coord(&self, index: u64, dim: usize) -> f64 {
-        unit_f64((self.scramble.entry().apply)(self.word(index, dim), self.keys[dim]))
-    }
-
-    fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
+    /// [`PointSet::fill`] in either precision.
+    fn fill_units<T: Unit>(&self, rows: Range<u64>, out: &mut [T]) {
         check_length(&rows, self.dims, out.len());
         let mut block = rows.start >> self.tile_bits;
         let mut offset = self.origin();
@@ -137,5 +128,23 @@ impl PointSet for DigitalNet {
             self.toggle(&mut offset, (block ^ next) << self.tile_bits);
             (block, tile, rest) = (next, &self.tile, later);
         }
+    }
+}
+
+impl PointSet for DigitalNet {
+    fn dims(&self) -> usize {
+        self.dims
+    }
+
+    fn coord(&self, index: u64, dim: usize) -> f64 {
+        unit_f64((self.scramble.entry().apply)(self.word(index, dim), self.keys[dim]))
+    }
+
+    fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
+        self.fill_units(rows, out);
+    }
+
+    fn fill_f32(&self, rows: Range<u64>, out: &mut [f32]) {
+        self.fill_units(rows, out);
     }
 }
