@@ -245,26 +245,3 @@ fn beckmann_slope(tan_theta: f32, u: f32) -> f32 {
     }
     erf_inverse(b.max(-0.999_999))
 }
-
-/// Mean over the facets visible from a direction of elevation `mu`, with weight G1 of the scattered direction, of what
-/// is reflected (`transmitted == false`) or refracted by a rough interface of relative index `eta`.
-pub(crate) fn interface_albedo(facets: &Microfacets, mu: f32, eta: f32, transmitted: bool) -> f32 {
-    const N: usize = 32;
-    let wo = Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
-    let midpoint = |i: usize| (i as f32 + 0.5) / N as f32;
-    let mut sum = 0.0;
-    for (i, j) in (0..N * N).map(|cell| (cell / N, cell % N)) {
-        let m = facets.sample(wo, [midpoint(i), midpoint(j)]);
-        let cos_o = wo.dot(m);
-        let interface = super::fresnel::dielectric(cos_o, eta);
-        let (wi, share) = if transmitted {
-            (interface.refract(wo, m, cos_o), 1.0 - interface.reflectance)
-        } else {
-            (2.0 * cos_o * m - wo, interface.reflectance)
-        };
-        if wi.z != 0.0 && (wi.z < 0.0) == transmitted {
-            sum += share * facets.visibility(wi, m);
-        }
-    }
-    sum / (N * N) as f32
-}

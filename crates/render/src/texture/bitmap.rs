@@ -10,7 +10,6 @@ use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 use crate::texture::Texture;
 use crate::texture::coordinates::Coordinates;
-use crate::texture::image::Image;
 use crate::texture::texels::{Texels, with_texels};
 
 pub(crate) const ENTRY: Entry<dyn Texture> = Entry { name: "bitmap", build };
@@ -58,21 +57,22 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn T
     let Some(path) = properties.path("filename")? else {
         return Err(properties.error("needs a filename"));
     };
-    let bitmap = Bitmap::new(&*builder.image(path, raw)?, filter, wrap);
+    let image = builder.image(path, raw)?;
+    let bitmap = Bitmap::new(image.width, &image.pixels, filter, wrap);
     Ok(Arc::new(Bitmap { coordinates, ..bitmap }))
 }
 
 impl Bitmap {
-    /// A texture from an image in memory.
-    pub fn new(image: &Image, filter: Filter, wrap: Wrap) -> Self {
-        let sum = image.pixels.iter().fold([0.0_f64; 3], |sum, pixel| {
+    /// A texture from linear RGB in memory, in rows of `width` texels.
+    pub fn new(width: usize, pixels: &[[f32; 3]], filter: Filter, wrap: Wrap) -> Self {
+        let sum = pixels.iter().fold([0.0_f64; 3], |sum, pixel| {
             [sum[0] + f64::from(pixel[0]), sum[1] + f64::from(pixel[1]), sum[2] + f64::from(pixel[2])]
         });
-        let mean = sum.map(|channel| (channel / image.pixels.len() as f64) as f32);
+        let mean = sum.map(|channel| (channel / pixels.len() as f64) as f32);
         Self {
-            width: image.width,
-            height: image.height,
-            texels: Texels::new(&image.pixels),
+            width,
+            height: pixels.len() / width,
+            texels: Texels::new(pixels),
             mean: Rgb::from_array(mean),
             filter,
             wrap,
