@@ -1,5 +1,7 @@
 //! Plugins from short pieces of XML, and the surface they are tried on.
 
+#![allow(dead_code, reason = "each test takes what it needs")]
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
