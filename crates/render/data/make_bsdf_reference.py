@@ -3,8 +3,10 @@
 Run `python make_bsdf_reference.py` where the `mitsuba` package is installed. Lines of the file:
 
     bsdf,NAME,XML          the rows that follow belong to this plugin
+    delta,NAME,XML         likewise
     texture,NAME,XML       likewise
     wo,wi,uv,value,pdf     3 + 3 + 2 + 3 + 1 numbers, for a BSDF; wo points to the viewer (Mitsuba calls it wi)
+    wo,lobe,wi,weight,pdf,eta  3 + 1 + 3 + 3 + 1 + 1 numbers, for a sample of a delta lobe
     uv,color,number,gradient   2 + 3 + 1 + 2 numbers, for a texture
 
 All rows of BSDFs share one surface, whose frame is in `SURFACE` here and in the test that reads the file.
@@ -91,6 +93,17 @@ BSDFS = {
     "bumpmap plain": bsdf("bumpmap", DIFFUSE, HEIGHT, flip_invalid_normals=False, use_shadowing_function=False),
 }
 
+DELTAS = {
+    "conductor": bsdf("conductor", eta=(0.2, 0.9, 1.1), k=(3.9, 2.4, 2.1), specular_reflectance=(0.9, 0.5, 0.3)),
+    "dielectric": bsdf("dielectric", specular_reflectance=(0.9, 0.5, 0.3), specular_transmittance=(0.5, 0.9, 0.7)),
+    "dielectric dense": bsdf("dielectric", int_ior=1.0, ext_ior=1.8),
+    "thindielectric": bsdf("thindielectric", specular_transmittance=(0.5, 0.9, 0.7)),
+    "plastic": bsdf("plastic", diffuse_reflectance=(0.1, 0.2, 0.6), specular_reflectance=(0.9, 0.5, 0.3)),
+    "twosided": bsdf("twosided", bsdf("conductor")),
+    "mask": bsdf("mask", bsdf("conductor"), opacity=0.3),
+    "null": bsdf("null"),
+}
+
 ROTATED = '<transform name="to_uv"><scale x="2.0" y="2.0"/><rotate z="1" angle="30"/><translate x="0.2" y="0.1"/></transform>'
 STRETCHED = '<transform name="to_uv"><scale x="2.0" y="3.0"/></transform>'
 TEXTURES = {
@@ -165,6 +178,18 @@ def bsdf_rows(plugin: object, rng: np.random.Generator) -> list[str]:
     return rows
 
 
+def delta_rows(plugin: object, rng: np.random.Generator) -> list[str]:
+    """Delta lobes only."""
+    rows = []
+    while len(rows) < ROWS // 2:
+        wo, lobe = rng.normal(size=3), round(rng.random(), 6)
+        wo = np.round(wo / np.linalg.norm(wo), 6)
+        sample, weight = plugin.sample(mi.BSDFContext(), surface(wo, (0, 0)), lobe, mi.Point2f(0.3, 0.6))
+        if sample.pdf > 0 and mi.has_flag(sample.sampled_type, mi.BSDFFlags.Delta | mi.BSDFFlags.Null):
+            rows.append(numbers(wo, lobe, sample.wo, weight, sample.pdf, sample.eta))
+    return rows
+
+
 def texture_rows(plugin: object, rng: np.random.Generator) -> list[str]:
     """Texture coordinates in and around the unit square."""
     rows = []
@@ -187,7 +212,8 @@ def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
     make_images()
     lines = [f"# Made by data/make_bsdf_reference.py with Mitsuba {mi.__version__} ({mi.variant()})"]
-    for family, members, make in (("bsdf", BSDFS, bsdf_rows), ("texture", TEXTURES, texture_rows)):
+    families = (("bsdf", BSDFS, bsdf_rows), ("delta", DELTAS, delta_rows), ("texture", TEXTURES, texture_rows))
+    for family, members, make in families:
         for index, (name, xml) in enumerate(members.items()):
             lines.append(f"{family},{name},{xml}")
             lines += make(load(xml), np.random.default_rng([index, ROWS]))

@@ -22,7 +22,7 @@ fn cases(family: &str) -> Vec<Case> {
     for line in text.lines().filter(|line| !line.starts_with('#')) {
         let mut fields = line.splitn(3, ',');
         let first = fields.next().unwrap_or_default();
-        if let "bsdf" | "texture" = first {
+        if let "bsdf" | "delta" | "texture" = first {
             let mut next = || fields.next().expect("a name and XML").to_owned();
             cases.push((first == family, Case { name: next(), xml: next(), rows: Vec::new() }));
         } else {
@@ -64,6 +64,21 @@ fn bsdfs_agree_with_mitsuba() {
         }
     }
     assert!(complaints.is_empty(), "{complaints}");
+}
+
+#[test]
+fn delta_lobes_agree_with_mitsuba() {
+    for Case { name, xml, rows } in cases("delta") {
+        let bsdf = bsdf(&xml).unwrap_or_else(|error| panic!("{name}: {error}"));
+        for row in rows {
+            let wo = Vec3::new(row[0], row[1], row[2]).normalize();
+            let sample = bsdf.sample(&surface(Vec2::ZERO), wo, row[3], [0.3, 0.6]).expect("a sample");
+            let (wi, weight) = (sample.wi, sample.weight);
+            let ours = [wi.x, wi.y, wi.z, weight.x, weight.y, weight.z, sample.density, sample.eta];
+            let same = ours.iter().zip(&row[4..]).all(|(ours, theirs)| !differs(*ours, *theirs, 1e-4));
+            assert!(sample.delta && same, "{name}: {row:?}\n    ours {ours:?}");
+        }
+    }
 }
 
 #[test]
