@@ -62,7 +62,7 @@ fn to_xml(short: &str) -> String {
     let mut words = head.split_whitespace();
     let mut xml = format!("<bsdf type=\"{}\">", words.next().unwrap_or_default());
     for word in words {
-        xml += &match word.split_once('=') {
+        let parameter = match word.split_once('=') {
             None => format!("<texture type=\"{}\"/>", word.trim_matches(['[', ']'])),
             Some((name, value)) => {
                 let element = match value {
@@ -74,6 +74,7 @@ fn to_xml(short: &str) -> String {
                 format!("<{element} name=\"{name}\" value=\"{}\"/>", value.replace(',', " "))
             }
         };
+        xml.push_str(&parameter);
     }
     let nested = nested.split(" (").filter(|plugin| !plugin.is_empty());
     nested.for_each(|plugin| xml += &to_xml(plugin.trim_end_matches(')')));
@@ -131,7 +132,7 @@ fn viewers() -> [Vec3; 4] {
 
 /// Bins of the sphere, in the cosine and the azimuth.
 const BINS: (usize, usize) = (24, 24);
-const SAMPLES: usize = 20_000;
+const SAMPLES: usize = 100_000;
 /// Probability that correct code fails the chi-square law anywhere.
 const FALSE_ALARM: f64 = 1e-4;
 
@@ -150,9 +151,10 @@ fn probability(case: &Case, wo: Vec3, (row, column): (usize, usize)) -> f64 {
         });
         nodes.sum::<f64>() * 4.0 * std::f64::consts::PI / (BINS.0 * BINS.1 * n * n) as f64
     };
-    let (mut n, mut coarse, mut fine) = (6, 0.0, midpoints(6));
-    while n < 192 && (n == 6 || f64::abs(fine - coarse) > 1e-6) {
-        n *= 2;
+    // Odd counts share few nodes: an edge that cuts the bin does not fool two of them alike.
+    let (mut n, mut coarse, mut fine) = (15, midpoints(7), midpoints(15));
+    while n < 255 && f64::abs(fine - coarse) > 1e-6 {
+        n = 2 * n + 1;
         (coarse, fine) = (fine, midpoints(n));
     }
     fine
