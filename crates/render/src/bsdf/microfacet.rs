@@ -230,7 +230,10 @@ fn beckmann_slope(tan_theta: f32, u: f32) -> f32 {
     let whole = erf(cot_theta);
     let highest = whole.min(0.999_999);
     let steep = if cot_theta < 4.0 { scale * (-cot_theta * cot_theta).exp() } else { 0.0 };
-    let target = u * (1.0 + whole + steep);
+    let total = 1.0 + whole + steep;
+    let target = u * total;
+    // The step after this error squares it; at both ends the function is less linear.
+    let enough = 1e-3 * target.min(total - target);
     let (mut low, mut high) = (-1.0_f32, highest);
     let theta = tan_theta.atan();
     let exponent = 1.0 + theta * (-0.876 + theta * (0.4265 - 0.0594 * theta));
@@ -238,16 +241,16 @@ fn beckmann_slope(tan_theta: f32, u: f32) -> f32 {
     for _ in 0..12 {
         let slope = erf_inverse(b.max(-0.999_999));
         let excess = 1.0 + b + scale * (-slope * slope).exp() - target;
-        let next = b - excess / (1.0 - slope * tan_theta);
-        if excess.abs() < 1e-6 * (1.0 + scale) {
-            break;
-        }
         if excess > 0.0 {
             high = b;
         } else {
             low = b;
         }
-        b = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let next = b - excess / (1.0 - slope * tan_theta);
+        b = if (low..=high).contains(&next) { next } else { 0.5 * (low + high) };
+        if excess.abs() < enough {
+            break;
+        }
     }
     erf_inverse(b.max(-0.999_999))
 }
