@@ -40,13 +40,20 @@ enum Instructions {
     Portable,
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
 }
 
 impl Instructions {
     fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            return Self::Avx2;
+        {
+            if std::env::var("AVX2").is_err() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+                return Self::Avx512;
+            }
+            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                return Self::Avx2;
+            }
         }
         Self::Portable
     }
@@ -117,6 +124,9 @@ impl RayKernel for Wide {
             // SAFETY: `detect` found the CPU features.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { closest_avx2(self, ray) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { closest_avx512(self, ray) },
             Instructions::Portable => self.with_stack(|stack| {
                 // SAFETY: arrays run everywhere; the stack has the right size.
                 unsafe {
@@ -136,6 +146,9 @@ impl RayKernel for Wide {
             // SAFETY: `detect` found the CPU features.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { occluded_avx2(self, ray) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { occluded_avx512(self, ray) },
             Instructions::Portable => self.with_stack(|stack| {
                 // SAFETY: arrays run everywhere; the stack has the right size.
                 unsafe {
@@ -151,24 +164,34 @@ impl RayKernel for Wide {
     }
 }
 
-/// # Safety
-/// The CPU must have AVX2 and FMA.
+/// The traversals compiled for one set of CPU features. The code is the same; with AVX-512 the compiler has twice the
+/// registers, so that the whole ray stays in them.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt")]
-unsafe fn closest_avx2(kernel: &Wide, ray: &Ray) -> Option<TriangleHit> {
-    // SAFETY: the caller promises the CPU; the stack has the right size.
-    kernel.with_stack(#[inline(always)] |stack| unsafe {
-        traverse::closest::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
-    })
+macro_rules! compiled_for {
+    ($features:literal: $closest:ident, $occluded:ident) => {
+        /// # Safety
+        /// The CPU must have the features.
+        #[target_feature(enable = $features)]
+        unsafe fn $closest(kernel: &Wide, ray: &Ray) -> Option<TriangleHit> {
+            // SAFETY: the caller promises the CPU; the stack has the right size.
+            kernel.with_stack(|stack| unsafe {
+                traverse::closest::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
+            })
+        }
+
+        /// # Safety
+        /// The CPU must have the features.
+        #[target_feature(enable = $features)]
+        unsafe fn $occluded(kernel: &Wide, ray: &Ray) -> bool {
+            // SAFETY: the caller promises the CPU; the stack has the right size.
+            kernel.with_stack(|stack| unsafe {
+                traverse::occluded::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
+            })
+        }
+    };
 }
 
-/// # Safety
-/// The CPU must have AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt")]
-unsafe fn occluded_avx2(kernel: &Wide, ray: &Ray) -> bool {
-    // SAFETY: the caller promises the CPU; the stack has the right size.
-    kernel.with_stack(#[inline(always)] |stack| unsafe {
-        traverse::occluded::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
-    })
-}
+compiled_for!("avx2,fma,bmi1,bmi2,lzcnt": closest_avx2, occluded_avx2);
+#[cfg(target_arch = "x86_64")]
+compiled_for!("avx2,fma,bmi1,bmi2,lzcnt,avx512f,avx512vl,avx512dq,avx512bw": closest_avx512, occluded_avx512);

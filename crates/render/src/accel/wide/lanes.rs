@@ -7,8 +7,8 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::{
     __m128, __m256, _CMP_EQ_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _mm_add_ps, _mm_cmpeq_ps, _mm_cmpgt_ps, _mm_cmple_ps,
-    _mm_div_ps, _mm_fmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps,
-    _mm_set1_ps, _mm_storeu_ps, _mm_sub_ps, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_fmadd_ps,
+    _mm_div_ps, _mm_fmadd_ps, _mm_fmsub_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps,
+    _mm_set1_ps, _mm_storeu_ps, _mm_sub_ps, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_fmsub_ps,
     _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_set1_ps,
     _mm256_storeu_ps, _mm256_sub_ps,
 };
@@ -41,6 +41,8 @@ pub(super) trait Lanes: Copy {
     fn div(self, other: Self) -> Self;
     /// `self * factor + term`; fused or not.
     fn mul_add(self, factor: Self, term: Self) -> Self;
+    /// `self * factor - term`; fused or not.
+    fn mul_sub(self, factor: Self, term: Self) -> Self;
     fn min(self, other: Self) -> Self;
     fn max(self, other: Self) -> Self;
     fn le(self, other: Self) -> u32;
@@ -120,6 +122,11 @@ impl<const N: usize> Lanes for Array<N> {
     }
 
     #[inline(always)]
+    fn mul_sub(self, factor: Self, term: Self) -> Self {
+        self.mul(factor).sub(term)
+    }
+
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
     }
@@ -149,7 +156,7 @@ impl<const N: usize> Lanes for Array<N> {
 #[cfg(target_arch = "x86_64")]
 macro_rules! register {
     ($(#[$doc:meta])* $name:ident($register:ty) x $width:literal;
-     $splat:ident $load:ident $store:ident $add:ident $sub:ident $mul:ident $div:ident $fma:ident $min:ident $max:ident;
+     $splat:ident $load:ident $store:ident $add:ident $sub:ident $mul:ident $div:ident $fma:ident $fms:ident $min:ident $max:ident;
      $movemask:ident le $le:path; gt $gt:path; eq $eq:path;) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
@@ -193,6 +200,12 @@ macro_rules! register {
                 // SAFETY: `self` proves the CPU.
                 Self(unsafe { $fma(self.0, factor.0, term.0) })
             }
+
+            #[inline(always)]
+            fn mul_sub(self, factor: Self, term: Self) -> Self {
+                // SAFETY: `self` proves the CPU.
+                Self(unsafe { $fms(self.0, factor.0, term.0) })
+            }
         }
     };
     (@binary $name:ident $intrinsic:ident) => {
@@ -216,7 +229,7 @@ register! {
     /// Eight floats; needs AVX2 and FMA.
     Avx8(__m256) x 8;
     _mm256_set1_ps _mm256_loadu_ps _mm256_storeu_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps _mm256_div_ps
-    _mm256_fmadd_ps _mm256_min_ps _mm256_max_ps;
+    _mm256_fmadd_ps _mm256_fmsub_ps _mm256_min_ps _mm256_max_ps;
     _mm256_movemask_ps le _mm256_cmp_ps::<_CMP_LE_OQ>; gt _mm256_cmp_ps::<_CMP_GT_OQ>; eq _mm256_cmp_ps::<_CMP_EQ_OQ>;
 }
 
@@ -225,6 +238,6 @@ register! {
     /// Four floats; needs FMA.
     Sse4(__m128) x 4;
     _mm_set1_ps _mm_loadu_ps _mm_storeu_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps
-    _mm_fmadd_ps _mm_min_ps _mm_max_ps;
+    _mm_fmadd_ps _mm_fmsub_ps _mm_min_ps _mm_max_ps;
     _mm_movemask_ps le _mm_cmple_ps; gt _mm_cmpgt_ps; eq _mm_cmpeq_ps;
 }

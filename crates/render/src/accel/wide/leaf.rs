@@ -34,8 +34,14 @@ impl Leaf {
     }
 
     /// The vertices of one triangle.
+    #[inline(always)]
     pub(super) fn vertices(&self, lane: usize) -> [[f32; 3]; 3] {
-        [0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| self.coordinates[axis][vertex][lane]))
+        let [x, y, z] = &self.coordinates;
+        [
+            [x[0][lane], y[0][lane], z[0][lane]],
+            [x[1][lane], y[1][lane], z[1][lane]],
+            [x[2][lane], y[2][lane], z[2][lane]],
+        ]
     }
 }
 

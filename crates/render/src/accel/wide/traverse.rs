@@ -6,7 +6,7 @@ use std::mem::MaybeUninit;
 use super::collapse::Tree;
 use super::lanes::Lanes;
 use super::leaf::LeafRay;
-use super::node::{Child, NODE_WIDTH, SlabRay};
+use super::node::{Child, GROW, NODE_WIDTH, SlabRay};
 use super::triangle::Shear;
 use crate::accel::TriangleHit;
 use crate::geometry::Ray;
@@ -83,12 +83,12 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
         let mut stack = Stack { entries: stack, len: 0 };
         let mut best = ray.t_max;
         let mut found: Option<(u32, usize, usize)> = None;
-        let mut node_reach = N::splat(best);
+        let mut reach = slabs.reach(N::splat(best));
         let mut current = Child::node(0);
         'visit: loop {
             while !current.is_leaf() {
                 let node = tree.nodes.get_unchecked(current.index());
-                let (mut mask, entry) = slabs.test(node, node_reach);
+                let (mut mask, entry) = slabs.test(node, reach);
                 if mask == 0 {
                     match next(&mut stack, best) {
                         Some(child) => current = child,
@@ -137,7 +137,7 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
                         found = Some((triangle, current.index(), lane));
                     }
                 }
-                node_reach = N::splat(best);
+                reach = slabs.reach(N::splat(best));
             }
             match next(&mut stack, best) {
                 Some(child) => current = child,
@@ -155,7 +155,7 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
 fn next(stack: &mut Stack, best: f32) -> Option<Child> {
     loop {
         let entry = stack.pop()?;
-        if f32::from_bits((entry >> 32) as u32) <= best {
+        if f32::from_bits((entry >> 32) as u32) <= best * GROW {
             return Some(Child(entry as u32));
         }
     }
@@ -177,7 +177,7 @@ pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
         let slabs = SlabRay::<N>::new(ray, extent);
         let triangles = LeafRay::<L>::new(Shear::new(ray));
         let mut stack = Stack { entries: stack, len: 0 };
-        let reach = N::splat(ray.t_max);
+        let reach = slabs.reach(N::splat(ray.t_max));
         let leaf_reach = L::splat(ray.t_max);
         let mut current = Child::node(0);
         loop {
