@@ -175,7 +175,7 @@ macro_rules! compiled_for {
         unsafe fn $closest(kernel: &Wide, ray: &Ray) -> Option<TriangleHit> {
             // SAFETY: the caller promises the CPU; the stack has the right size.
             kernel.with_stack(|stack| unsafe {
-                traverse::closest::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
+                traverse::closest::<lanes::Avx8, lanes::Avx8>(&kernel.tree, kernel.extent, ray, stack)
             })
         }
 
@@ -185,7 +185,7 @@ macro_rules! compiled_for {
         unsafe fn $occluded(kernel: &Wide, ray: &Ray) -> bool {
             // SAFETY: the caller promises the CPU; the stack has the right size.
             kernel.with_stack(|stack| unsafe {
-                traverse::occluded::<lanes::Avx8, lanes::Sse4>(&kernel.tree, kernel.extent, ray, stack)
+                traverse::occluded::<lanes::Avx8, lanes::Avx8>(&kernel.tree, kernel.extent, ray, stack)
             })
         }
     };

@@ -12,7 +12,7 @@ use super::node::{Child, NODE_WIDTH, Node};
 use crate::accel::TriangleSoup;
 
 /// Cost of testing one inner node, in units of one leaf (measured: see `examples/ray_kernels.rs`).
-const NODE_COST: f32 = 1.0;
+static NC: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("NC").map_or(1.0, |s| s.parse().unwrap()));
 
 /// The wide tree in traversal order.
 pub(super) struct Tree {
@@ -100,6 +100,7 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
 }
 
 fn plan_inner(area: f32, left: &Plan, right: &Plan) -> Plan {
+    #[allow(non_snake_case)] let NODE_COST = *NC;
     let mut plan = Plan { triangles: left.triangles + right.triangles, ..Plan::default() };
     let mut distribute = [f32::INFINITY; NODE_WIDTH];
     for trees in 2..=NODE_WIDTH {

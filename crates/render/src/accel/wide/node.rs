@@ -75,6 +75,7 @@ impl Node {
 pub(super) struct SlabRay<L> {
     origin: [L; 3],
     inverse: [L; 3],
+    inverse_far: [L; 3],
     margin: [L; 3],
     grow: L,
     zero: L,
@@ -103,6 +104,7 @@ impl<L: Lanes> SlabRay<L> {
             Self {
                 origin: splat3(ray.origin.to_array()),
                 inverse: splat3(inverse.to_array()),
+                inverse_far: splat3((inverse * GROW).to_array()),
                 margin: splat3(margin.to_array()),
                 grow: L::splat(GROW),
                 zero: L::splat(0.0),
@@ -126,7 +128,7 @@ impl<L: Lanes> SlabRay<L> {
     pub(super) fn test(&self, node: &Node, reach: L) -> (u32, L) {
         let (x, y, z) = (self.slab(node, 0), self.slab(node, 1), self.slab(node, 2));
         let entry = x.0.max(y.0).max(z.0.max(self.zero));
-        let exit = x.1.min(y.1).min(z.1).mul(self.grow).min(reach);
+        let exit = x.1.min(y.1).min(z.1.min(reach));
         (entry.le(exit), entry)
     }
 
@@ -141,7 +143,7 @@ impl<L: Lanes> SlabRay<L> {
         };
         (
             near.sub(self.origin[axis]).mul_sub(self.inverse[axis], self.margin[axis]),
-            far.sub(self.origin[axis]).mul_add(self.inverse[axis], self.margin[axis]),
+            far.sub(self.origin[axis]).mul_add(self.inverse_far[axis], self.margin[axis]),
         )
     }
 }

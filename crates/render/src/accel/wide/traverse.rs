@@ -78,11 +78,11 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
     // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
     unsafe {
         let slabs = SlabRay::<N>::new(ray, extent);
-        let shear = Shear::new(ray);
-        let triangles = LeafRay::<L>::new(shear);
+        let triangles = LeafRay::<L>::new(Shear::new(ray));
         let mut stack = Stack { entries: stack, len: 0 };
         let mut best = ray.t_max;
-        let mut found: Option<(u32, usize, usize)> = None;
+        let mut found = TriangleHit { t: best, u: 0.0, v: 0.0, triangle: 0 };
+        let mut determinant = 0.0; // nothing found yet
         let mut reach = slabs.reach(N::splat(best));
         let mut current = Child::node(0);
         'visit: loop {
@@ -124,18 +124,27 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
                 current = Child(stack.pop().unwrap_unchecked() as u32);
             }
             let leaf = tree.leaves.get_unchecked(current.index());
-            let (mut hits, t) = triangles.test(leaf, L::splat(best));
-            if hits != 0 {
-                let distances = t.to_array();
-                while hits != 0 {
-                    let lane = hits.trailing_zeros() as usize;
-                    hits &= hits - 1;
+            let mut hits = triangles.test(leaf, L::splat(best));
+            if hits.mask != 0 {
+                let distances = hits.t.to_array();
+                let mut winner = None;
+                while hits.mask != 0 {
+                    let lane = hits.mask.trailing_zeros() as usize;
+                    hits.mask &= hits.mask - 1;
                     let t = *distances.get_unchecked(lane);
                     let triangle = *leaf.triangles.get_unchecked(lane);
-                    if t < best || (t == best && found.is_some_and(|(other, _, _)| triangle < other)) {
+                    // No hit was found while `found.triangle` is 0, so that t_max itself never counts.
+                    if t < best || (t == best && triangle < found.triangle) {
                         best = t;
-                        found = Some((triangle, current.index(), lane));
+                        found.triangle = triangle;
+                        winner = Some(lane);
                     }
+                }
+                if let Some(lane) = winner {
+                    found.t = best;
+                    found.u = *hits.v.to_array().get_unchecked(lane);
+                    found.v = *hits.w.to_array().get_unchecked(lane);
+                    determinant = *hits.determinant.to_array().get_unchecked(lane);
                 }
                 reach = slabs.reach(N::splat(best));
             }
@@ -144,9 +153,7 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
                 None => break,
             }
         }
-        let (triangle, leaf, lane) = found?;
-        let [_, u, v] = shear.meet(tree.leaves[leaf].vertices(lane))?;
-        Some(TriangleHit { t: best, u, v, triangle })
+        (determinant != 0.0).then(|| TriangleHit { u: found.u / determinant, v: found.v / determinant, ..found })
     }
 }
 
@@ -182,8 +189,8 @@ pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
         let mut current = Child::node(0);
         loop {
             if current.is_leaf() {
-                let (hits, t) = triangles.test(tree.leaves.get_unchecked(current.index()), leaf_reach);
-                if hits & leaf_reach.gt(t) != 0 {
+                let hits = triangles.test(tree.leaves.get_unchecked(current.index()), leaf_reach);
+                if hits.mask & leaf_reach.gt(hits.t) != 0 {
                     return true;
                 }
             } else {
