@@ -57,7 +57,7 @@ pub(super) fn collapse(bvh: &Bvh2, soup: &TriangleSoup) -> Tree {
             gather(bvh, &plans, first + 1, NODE_WIDTH - left, &mut children);
         }
         let area = |n: &u32| bvh.nodes[*n as usize].aabb().half_area();
-        children.sort_by(|a, b| area(b).total_cmp(&area(a)));
+        children.sort_by(|a, b| area(a).total_cmp(&area(b)));
         for (i, &n) in children.iter().enumerate() {
             let child = if plans[n as usize].leaf {
                 tree.leaves.push(leaf(bvh, soup, n));

@@ -196,9 +196,16 @@ pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
             } else {
                 let node = tree.nodes.get_unchecked(current.index());
                 let (mut mask, _) = slabs.test(node, reach);
-                while mask != 0 {
-                    stack.push(u64::from(node.children.get_unchecked(mask.trailing_zeros() as usize).0));
-                    mask &= mask - 1;
+                if mask != 0 {
+                    // Children are sorted by area: the last is the likeliest to be hit.
+                    let last = mask.ilog2();
+                    mask ^= 1 << last;
+                    while mask != 0 {
+                        stack.push(u64::from(node.children.get_unchecked(mask.trailing_zeros() as usize).0));
+                        mask &= mask - 1;
+                    }
+                    current = *node.children.get_unchecked(last as usize);
+                    continue;
                 }
             }
             match stack.pop() {
