@@ -1,27 +1,24 @@
-//! Leaves: a few triangles in structure-of-arrays layout, tested all at once.
+//! Leaves: up to eight triangles in structure-of-arrays layout, tested all at once.
 #![allow(unsafe_code)] // loads from raw lanes; CPU features are promised by the caller
 
-use super::lanes::{Lanes, splat3};
+use super::lanes::{Lanes, WIDTH, splat3};
 use super::triangle::{Meeting, Shear};
 
-/// Triangles per leaf.
-pub(super) const LEAF_WIDTH: usize = 8;
-
-/// Up to [`LEAF_WIDTH`] triangles. Empty lanes are NaN, which no comparison lets through.
+/// Up to [`WIDTH`] triangles. Empty lanes are NaN, which no comparison lets through.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(super) struct Leaf {
     /// `coordinates[axis][vertex][lane]`: the axis comes first because a ray permutes the axes.
-    coordinates: [[[f32; LEAF_WIDTH]; 3]; 3],
+    coordinates: [[[f32; WIDTH]; 3]; 3],
     /// Indices into the list of triangles.
-    pub(super) triangles: [u32; LEAF_WIDTH],
+    pub(super) triangles: [u32; WIDTH],
 }
 
 impl Leaf {
-    /// At most [`LEAF_WIDTH`] triangles: index and vertices.
+    /// At most [`WIDTH`] triangles: index and vertices.
     pub(super) fn new(triangles: impl Iterator<Item = (u32, [[f32; 3]; 3])>) -> Self {
         let mut leaf =
-            Self { coordinates: [[[f32::NAN; LEAF_WIDTH]; 3]; 3], triangles: [u32::MAX; LEAF_WIDTH] };
+            Self { coordinates: [[[f32::NAN; WIDTH]; 3]; 3], triangles: [u32::MAX; WIDTH] };
         for (lane, (index, vertices)) in triangles.enumerate() {
             leaf.triangles[lane] = index;
             for (vertex, position) in vertices.iter().enumerate() {
@@ -74,8 +71,7 @@ impl<L: Lanes> LeafRay<L> {
     fn apply(&self, leaf: &Leaf, vertex: usize) -> [L; 3] {
         let [kx, ky, kz] = self.shear.axes;
         // SAFETY: axes are below 3 and `vertex` too; `self` holds values of `L`, which prove the CPU.
-        let load =
-        |axis: usize| unsafe { L::load(leaf.coordinates.get_unchecked(axis).get_unchecked(vertex).as_ptr()) };
+        let load = |axis: usize| unsafe { L::load(leaf.coordinates.get_unchecked(axis).get_unchecked(vertex).as_ptr()) };
         let z = load(kz).sub(self.origin[2]);
         let x = load(kx).sub(self.origin[0]).sub(self.scale[0].mul(z));
         let y = load(ky).sub(self.origin[1]).sub(self.scale[1].mul(z));
@@ -114,9 +110,9 @@ impl<L: Lanes> LeafRay<L> {
     #[cold]
     #[inline(never)]
     fn exact(&self, leaf: &Leaf, lanes: u32, t_max: L) -> LaneHits<L> {
-        let (mut mask, mut rows) = (0, [[0.0; 8]; 4]);
+        let (mut mask, mut rows) = (0, [[0.0; WIDTH]; 4]);
         let t_max = t_max.to_array()[0];
-        for lane in 0..L::WIDTH {
+        for lane in 0..WIDTH {
             if lanes >> lane & 1 == 1
                 && let Some(meeting) = self.shear.meet(leaf.vertices(lane))
                 && meeting.t > 0.0
@@ -129,8 +125,9 @@ impl<L: Lanes> LeafRay<L> {
                 }
             }
         }
-        // SAFETY: `self` holds values of `L`, which prove the CPU; each row has 8 floats.
-        let [t, v, w, determinant] = rows.map(|row| unsafe { L::load(row.as_ptr()) });
+        // SAFETY: `self` holds values of `L`, which prove the CPU; each row has all lanes.
+        let load = |row: &[f32; WIDTH]| unsafe { L::load(row.as_ptr()) };
+        let [t, v, w, determinant] = [load(&rows[0]), load(&rows[1]), load(&rows[2]), load(&rows[3])];
         LaneHits { mask, t, v, w, determinant }
     }
 }

@@ -1,11 +1,8 @@
 //! Inner nodes: eight child boxes tested at once against one ray.
 #![allow(unsafe_code)] // loads from raw lanes; CPU features are promised by the caller
 
-use super::lanes::{Lanes, splat3};
+use super::lanes::{Lanes, WIDTH, splat3};
 use crate::geometry::{Ray, Vec3};
-
-/// Children per node.
-pub(super) const NODE_WIDTH: usize = 8;
 
 /// What a node's child is: an inner node, or a leaf when [`Child::LEAF`] is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,22 +36,22 @@ impl Child {
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// Lower x, upper x, lower y, upper y, lower z, upper z of all children.
-    planes: [[f32; NODE_WIDTH]; 6],
+    planes: [[f32; WIDTH]; 6],
     /// What the boxes hold.
-    pub(super) children: [Child; NODE_WIDTH],
+    pub(super) children: [Child; WIDTH],
 }
 
 impl Node {
     pub(super) const EMPTY: Self = Self {
         planes: [
-            [f32::INFINITY; NODE_WIDTH],
-            [f32::NEG_INFINITY; NODE_WIDTH],
-            [f32::INFINITY; NODE_WIDTH],
-            [f32::NEG_INFINITY; NODE_WIDTH],
-            [f32::INFINITY; NODE_WIDTH],
-            [f32::NEG_INFINITY; NODE_WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
         ],
-        children: [Child(0); NODE_WIDTH],
+        children: [Child(0); WIDTH],
     };
 
     pub(super) fn set(&mut self, slot: usize, lower: [f32; 3], upper: [f32; 3], child: Child) {

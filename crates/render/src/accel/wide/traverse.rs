@@ -4,9 +4,9 @@
 use std::mem::MaybeUninit;
 
 use super::collapse::Tree;
-use super::lanes::Lanes;
+use super::lanes::{Lanes, WIDTH};
 use super::leaf::LeafRay;
-use super::node::{Child, GROW, NODE_WIDTH, SlabRay};
+use super::node::{Child, GROW, SlabRay};
 use super::triangle::Shear;
 use crate::accel::TriangleHit;
 use crate::geometry::Ray;
@@ -56,7 +56,7 @@ impl Stack<'_> {
 
 /// Stack entries that a tree of this depth may need.
 pub(super) fn stack_len(depth: usize) -> usize {
-    depth * NODE_WIDTH + 1
+    depth * WIDTH + 1
 }
 
 #[inline(always)]
@@ -67,9 +67,9 @@ fn pack(distance: f32, child: Child) -> u64 {
 /// The first triangle with `0 < t < ray.t_max`; of several at the same distance, the one of lowest index.
 ///
 /// # Safety
-/// The CPU must support `N` and `L`; the stack must hold [`stack_len`] entries.
+/// The CPU must support `L`; the stack must hold [`stack_len`] entries.
 #[inline(always)]
-pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
+pub(super) unsafe fn closest<L: Lanes>(
     tree: &Tree,
     extent: f32,
     ray: &Ray,
@@ -77,13 +77,13 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
 ) -> Option<TriangleHit> {
     // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
     unsafe {
-        let slabs = SlabRay::<N>::new(ray, extent);
+        let slabs = SlabRay::<L>::new(ray, extent);
         let triangles = LeafRay::<L>::new(Shear::new(ray));
         let mut stack = Stack { entries: stack, len: 0 };
         let mut best = ray.t_max;
         let mut found = TriangleHit { t: best, u: 0.0, v: 0.0, triangle: 0 };
         let mut determinant = 0.0; // nothing found yet
-        let mut reach = slabs.reach(N::splat(best));
+        let mut reach = slabs.reach(L::splat(best));
         let mut current = Child::node(0);
         'visit: loop {
             while !current.is_leaf() {
@@ -146,7 +146,7 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
                     found.v = *hits.w.to_array().get_unchecked(lane);
                     determinant = *hits.determinant.to_array().get_unchecked(lane);
                 }
-                reach = slabs.reach(N::splat(best));
+                reach = slabs.reach(L::splat(best));
             }
             match next(&mut stack, best) {
                 Some(child) => current = child,
@@ -171,9 +171,9 @@ fn next(stack: &mut Stack, best: f32) -> Option<Child> {
 /// Whether any triangle lies at `0 < t < ray.t_max`. The order of visits does not matter, so nothing is sorted.
 ///
 /// # Safety
-/// The CPU must support `N` and `L`; the stack must hold [`stack_len`] entries.
+/// The CPU must support `L`; the stack must hold [`stack_len`] entries.
 #[inline(always)]
-pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
+pub(super) unsafe fn occluded<L: Lanes>(
     tree: &Tree,
     extent: f32,
     ray: &Ray,
@@ -181,16 +181,16 @@ pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
 ) -> bool {
     // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
     unsafe {
-        let slabs = SlabRay::<N>::new(ray, extent);
+        let slabs = SlabRay::<L>::new(ray, extent);
         let triangles = LeafRay::<L>::new(Shear::new(ray));
         let mut stack = Stack { entries: stack, len: 0 };
-        let reach = slabs.reach(N::splat(ray.t_max));
-        let leaf_reach = L::splat(ray.t_max);
+        let t_max = L::splat(ray.t_max);
+        let reach = slabs.reach(t_max);
         let mut current = Child::node(0);
         loop {
             if current.is_leaf() {
-                let hits = triangles.test(tree.leaves.get_unchecked(current.index()), leaf_reach);
-                if hits.mask & leaf_reach.gt(hits.t) != 0 {
+                let hits = triangles.test(tree.leaves.get_unchecked(current.index()), t_max);
+                if hits.mask & t_max.gt(hits.t) != 0 {
                     return true;
                 }
             } else {
