@@ -38,10 +38,8 @@ def main() -> int:
         errors[sampler] = film.relative_error
         for suffix in (".png", ".exr"):
             film.write(folder / f"demo-{sampler}{suffix}")
-        print(
-            f"{sampler:>12}: mean relative error {film.relative_error:6.2%} in {film.metadata['seconds']:.1f} s -> "
-            f"out/demo-{sampler}.png (to look at), .exr (all layers, with the standard error of every pixel)"
-        )
+        print(f"{sampler:>12}: mean relative error {film.relative_error:6.2%} in {film.metadata['seconds']:.1f} s")
+        print(f"              out/demo-{sampler}.png to look at, .exr with the standard error of every pixel")
     ratio = (errors["independent"] / errors["sobol"]) ** 2
     print(f"The same error with independent samples would take about {ratio:.1f} times as many.")
     return 0

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 
 # What each crate of ours may use of the others.
-ARROWS = {
+ARROWS: dict[str, set[str]] = {
     "evenlight-points": set(),
     "evenlight-render": {"evenlight-points"},
     "evenlight-python": {"evenlight-points", "evenlight-render"},
@@ -33,9 +33,7 @@ def everything_below(metadata: Any, crate: str) -> set[str]:
     """The names of all crates that a crate is built from, at any distance; tests and benches aside."""
     names = {package["id"]: package["name"] for package in metadata["packages"]}
     edges = {
-        node["id"]: [
-            link["pkg"] for link in node["deps"] if any(kind["kind"] != "dev" for kind in link["dep_kinds"])
-        ]
+        node["id"]: [link["pkg"] for link in node["deps"] if any(kind["kind"] != "dev" for kind in link["dep_kinds"])]
         for node in metadata["resolve"]["nodes"]
     }
     found: set[str] = set()
@@ -68,6 +66,6 @@ def test_points_stand_almost_alone(metadata: Any) -> None:
 
 
 def test_python_modules_use_only_the_modules_they_may() -> None:
-    command = [Path(sys.executable).with_name("lint-imports"), "--no-cache"]
+    command = [str(Path(sys.executable).with_name("lint-imports")), "--no-cache"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout

@@ -100,9 +100,7 @@ class _Bar:
     """A progress bar with the time left, samples per second and the current mean relative error."""
 
     def __init__(self, quiet: bool) -> None:
-        self._bar: tqdm[NoReturn] = tqdm(
-            unit="sample", unit_scale=True, dynamic_ncols=True, leave=False, disable=quiet
-        )
+        self._bar: tqdm[NoReturn] = tqdm(unit="sample", unit_scale=True, dynamic_ncols=True, leave=False, disable=quiet)
 
     def __enter__(self) -> _Bar:
         return self
@@ -139,8 +137,20 @@ def _parser() -> argparse.ArgumentParser:
 def _add_render(parser: argparse.ArgumentParser) -> None:
     _add_scene(parser)
     add = parser.add_argument
-    add("-o", "--output", action="append", required=True, metavar="FILE", help=".exr, .png or .npz; repeatable")
-    add("--integrator", choices=_core.integrators(), default="path", help="how light paths are made (%(default)s)")
+    add(
+        "-o",
+        "--output",
+        action="append",
+        required=True,
+        metavar="FILE",
+        help=".exr, .png or .npz; repeatable",
+    )
+    add(
+        "--integrator",
+        choices=_core.integrators(),
+        default="path",
+        help="how light paths are made (%(default)s)",
+    )
     add("--sampler", choices=_core.samplers(), default="sobol", help="the points behind them (%(default)s)")
     add("--spp", type=int, default=64, help="samples per pixel over all replicates (%(default)s)")
     add("--replicates", type=int, default=4, help="independent randomizations, for the error (%(default)s)")
@@ -158,10 +168,23 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
 def _add_scene(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("scene", metavar="SCENE", help="a Mitsuba 3 XML file")
-    add("-D", "--define", action="append", type=_definition, default=[], metavar="NAME=VALUE", help="$NAME in it")
+    add(
+        "-D",
+        "--define",
+        action="append",
+        type=_definition,
+        default=[],
+        metavar="NAME=VALUE",
+        help="$NAME in it",
+    )
     add("--lenient", action="store_true", help="unknown plugins and parameters are warnings")
     add("--allow-outside", action="store_true", help="allow files outside the scene's folder")
-    add("--kernel", choices=["auto", "embree", "wide"], default="auto", help="what intersects rays (%(default)s)")
+    add(
+        "--kernel",
+        choices=["auto", "embree", "wide"],
+        default="auto",
+        help="what intersects rays (%(default)s)",
+    )
 
 
 def _add_points(parser: argparse.ArgumentParser) -> None:
