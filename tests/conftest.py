@@ -26,7 +26,7 @@ def evenlight_command(tmp_path: Path) -> Run:
     """Run the command line in a process and a folder of its own."""
 
     def run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "evenlight", *map(os.fspath, arguments)]
+        command = [sys.executable, "-m", "evenlight", *(os.fspath(argument) for argument in arguments)]
         return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=100)
 
     return run

@@ -1,4 +1,4 @@
-"""The compiled door to the Rust core: private. The public interface is `evenlight`."""
+"""The compiled core: private. The public faces are the modules beside it."""
 
 from collections.abc import Callable
 from typing import Any, final
@@ -7,6 +7,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
+
+# --- points ---
+
+@final
+class PointSet:
+    def __new__(cls, name: str, dims: int, scramble: str, seed: int) -> PointSet: ...
+    @property
+    def dims(self) -> int: ...
+    def coord(self, index: int, dim: int) -> float: ...
+    def fill(self, start: int, stop: int, out: NDArray[np.float64] | NDArray[np.float32]) -> None: ...
+
+def available_sequences() -> list[tuple[str, str, list[str], int]]: ...
+
+# --- render ---
 
 @final
 class Scene:
@@ -28,6 +42,9 @@ def render(
 def integrators() -> list[str]: ...
 def samplers() -> list[str]: ...
 def filters() -> list[str]: ...
+
+# --- output ---
+
 def check_writable(path: str) -> None: ...
 def write_exr(
     path: str, layers: list[tuple[str, list[str], NDArray[np.float32]]], metadata: dict[str, str]

@@ -1,1 +1,32 @@
 //! Uniform numbers: where to look.
+//!
+//! A point set is a pure function of (index, dimension), randomized by a [`Seed`]:
+//!
+//! ```
+//! use evenlight_points::{Seed, sequences};
+//! let points = sequences::build("sobol", 2, "owen", Seed::new(7))?;
+//! let mut rows = [0.0; 2 * 8];
+//! points.fill(0..8, &mut rows);
+//! assert_eq!(rows[2 * 5 + 1], points.coord(5, 1));
+//! # Ok::<(), evenlight_points::Error>(())
+//! ```
+//!
+//! * [`sequences`]: the families of points, one file each, and their registry;
+//! * [`scramble`]: random bijections of digits that keep nets nets;
+//! * [`digital_net`]: the engine that all base-2 sequences share;
+//! * [`convert`]: digits to floating point without ever reaching 1.0.
+
+pub mod convert;
+mod data;
+pub mod digital_net;
+mod error;
+mod instruction_sets;
+mod point_set;
+mod radical_inverse;
+pub mod scramble;
+mod seed;
+pub mod sequences;
+
+pub use error::Error;
+pub use point_set::PointSet;
+pub use seed::Seed;

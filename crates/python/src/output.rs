@@ -10,15 +10,22 @@ use pyo3::prelude::*;
 
 type Image<'py> = PyReadonlyArray3<'py, f32>;
 
+/// Adds this room to the extension module.
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(check_writable, module)?)?;
+    module.add_function(wrap_pyfunction!(write_exr, module)?)?;
+    module.add_function(wrap_pyfunction!(write_png, module)?)
+}
+
 /// Refuse a path that cannot be written, before the work is done.
 #[pyfunction]
-pub(crate) fn check_writable(path: PathBuf) -> PyResult<()> {
+fn check_writable(path: PathBuf) -> PyResult<()> {
     output::check_writable(&path).map_err(|error| PyOSError::new_err(error.to_string()))
 }
 
 /// Write `(name, channels, (H, W, C) array)` layers as one OpenEXR file.
 #[pyfunction]
-pub(crate) fn write_exr(
+fn write_exr(
     py: Python<'_>,
     path: PathBuf,
     layers: Vec<(String, Vec<String>, Image<'_>)>,
@@ -40,7 +47,7 @@ pub(crate) fn write_exr(
 
 /// Write a linear `(H, W, 3)` array as an 8-bit sRGB preview.
 #[pyfunction]
-pub(crate) fn write_png(
+fn write_png(
     py: Python<'_>,
     path: PathBuf,
     image: Image<'_>,

@@ -1,0 +1,60 @@
+//! Digits to floating-point numbers in [0, 1), by truncation.
+//!
+//! Rounding to nearest would turn a word of all ones into exactly 1.0, and a renderer or an inverse
+//! distribution function that meets 1.0 returns an infinity. Truncation cannot: the largest results
+//! are 1 − 2⁻⁵³ and 1 − 2⁻²⁴. It also keeps every point inside its elementary interval.
+
+/// The upper 53 bits of a word as a number in [0, 1).
+///
+/// ```
+/// use evenlight_points::convert::unit_f64;
+/// assert_eq!(unit_f64(1 << 63), 0.5);
+/// assert!(unit_f64(u64::MAX) < 1.0);
+/// ```
+#[inline]
+pub fn unit_f64(word: u64) -> f64 {
+    (word >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+}
+
+/// The upper 24 bits of a word as a number in [0, 1).
+///
+/// ```
+/// use evenlight_points::convert::unit_f32;
+/// assert_eq!(unit_f32(1 << 31), 0.5);
+/// assert!(unit_f32(u32::MAX) < 1.0);
+/// ```
+#[inline]
+pub fn unit_f32(word: u32) -> f32 {
+    // The signed conversion is the one that vector units have.
+    (word >> 8) as i32 as f32 * (1.0 / (1_u32 << 24) as f32)
+}
+
+/// A number in [0, 1) with its bits below 2⁻²⁴ cut off, which the plain cast would round up to 1.
+///
+/// ```
+/// use evenlight_points::convert::truncate_to_f32;
+/// assert!(truncate_to_f32(1.0 - 1e-12) < 1.0);
+/// ```
+#[inline]
+pub fn truncate_to_f32(unit: f64) -> f32 {
+    (unit * f64::from(1_u32 << 24)) as i32 as f32 * (1.0 / (1_u32 << 24) as f32)
+}
+
+/// A floating-point number made of the first digits of a word, for loops in either precision.
+pub(crate) trait Unit: Copy {
+    fn from_word(word: u64) -> Self;
+}
+
+impl Unit for f64 {
+    #[inline(always)]
+    fn from_word(word: u64) -> Self {
+        unit_f64(word)
+    }
+}
+
+impl Unit for f32 {
+    #[inline(always)]
+    fn from_word(word: u64) -> Self {
+        unit_f32((word >> 32) as u32)
+    }
+}

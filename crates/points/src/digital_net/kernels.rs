@@ -1,0 +1,58 @@
+//! The inner loops of [`DigitalNet`](super::DigitalNet).
+
+use crate::convert::Unit;
+use crate::instruction_sets::for_this_machine;
+use crate::scramble::owen::owen_hash_reversed_64;
+
+for_this_machine! {
+    /// Points without a scramble or with a digital shift, which is part of the offset.
+    ///
+    /// `period` holds the offsets of some whole rows, and `tile` at least as many words as `out`.
+    shifted = shifted_body<T: Unit>(tile: &[u64], period: &[u64], out: &mut [T])
+}
+
+for_this_machine! {
+    /// Owen-scrambled points. `tile` and `period` hold reversed words, `keys` go with `period`.
+    owen = owen_body<T: Unit>(tile: &[u64], period: &[u64], keys: &[u64], out: &mut [T])
+}
+
+#[inline(always)]
+fn shifted_body<T: Unit>(tile: &[u64], period: &[u64], out: &mut [T]) {
+    for (tile, out) in tile.chunks(period.len()).zip(out.chunks_mut(period.len())) {
+        for ((x, word), offset) in out.iter_mut().zip(tile).zip(period) {
+            *x = T::from_word(word ^ offset);
+        }
+    }
+}
+
+#[inline(always)]
+fn owen_body<T: Unit>(tile: &[u64], period: &[u64], keys: &[u64], out: &mut [T]) {
+    for (tile, out) in tile.chunks(period.len()).zip(out.chunks_mut(period.len())) {
+        for (((x, word), offset), &key) in out.iter_mut().zip(tile).zip(period).zip(keys) {
+            *x = T::from_word(owen_hash_reversed_64(word ^ offset, key).reverse_bits());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The kernels of this machine against the plain compilation of the same loop, lengths included
+    /// that no vector divides.
+    #[test]
+    fn instruction_sets_agree_to_the_bit() {
+        let words = |n: u64, salt| (0..n).map(|i| crate::seed::mix(i + salt)).collect::<Vec<_>>();
+        for (length, period) in [(1, 1), (7, 5), (203, 29), (1024, 128), (1000, 128)] {
+            let (tile, offsets, keys) = (words(length, 1), words(period, 2000), words(period, 3000));
+            let mut fast = vec![0.0_f64; length as usize];
+            let mut plain = fast.clone();
+            owen(&tile, &offsets, &keys, &mut fast);
+            owen_body(&tile, &offsets, &keys, &mut plain);
+            assert_eq!(fast, plain);
+            shifted(&tile, &offsets, &mut fast);
+            shifted_body(&tile, &offsets, &mut plain);
+            assert_eq!(fast, plain);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Scrambles in base 2: bijections digit by digit, with the variance that theory gives them.
+
+use evenlight_points::convert::unit_f64;
+use evenlight_points::scramble::owen::{nested_uniform_scramble_32, nested_uniform_scramble_64};
+use evenlight_points::scramble::{self, Scrambling};
+use evenlight_points::sequences::halton::Halton;
+use evenlight_points::sequences::sobol::sobol;
+use evenlight_points::{PointSet, Seed};
+
+const SEEDS: u64 = 40_000;
+
+#[test]
+fn first_digits_depend_on_first_digits_only_and_are_permuted() {
+    for entry in scramble::ALL {
+        for key in (0..20).map(Seed::new) {
+            let mut seen = vec![false; 1 << 12];
+            for prefix in 0..1_u64 << 12 {
+                let junk = Seed::new(prefix).bits64() >> 12;
+                let image = (entry.apply)(prefix << 52 | junk, key) >> 52;
+                assert_eq!(image, (entry.apply)(prefix << 52, key) >> 52, "{}", entry.name);
+                assert!(!std::mem::replace(&mut seen[image as usize], true), "{}: {image} twice", entry.name);
+            }
+        }
+    }
+    for seed in (0..20).map(|number| Seed::new(number).bits32()) {
+        let image = |prefix: u32| nested_uniform_scramble_32(prefix << 20 | 0x9_a7e3, seed) >> 20;
+        let mut images: Vec<_> = (0..1 << 12).map(image).collect();
+        assert!(
+            (0..1 << 12).all(|prefix| nested_uniform_scramble_32(prefix << 20, seed) >> 20 == image(prefix))
+        );
+        images.sort_unstable();
+        assert!(images.into_iter().eq(0..1 << 12));
+    }
+}
+
+#[test]
+fn words_are_permuted_at_every_depth() {
+    for k in 1..64 {
+        let (a, b) = (0x0123_4567_89ab_cdef_u64, 0x0123_4567_89ab_cdef_u64 ^ (1 << (63 - k)));
+        for seed in (0..50).map(|number| Seed::new(number).bits64()) {
+            let difference = nested_uniform_scramble_64(a, seed) ^ nested_uniform_scramble_64(b, seed);
+            assert_eq!(difference.leading_zeros(), k, "the first different digit stays the first");
+        }
+    }
+}
+
+/// The mean over seeds of the squared error of the mean of `f` over `n` words 0, 1/n, 2/n, …
+fn squared_error(n: u64, truth: f64, mean: impl Fn(Seed) -> f64) -> f64 {
+    let errors = (0..SEEDS).map(|r| (mean(Seed::new(n).replicate(r)) - truth).powi(2));
+    errors.sum::<f64>() / SEEDS as f64
+}
+
+/// A. B. Owen (1997): stratification alone leaves the variance 1/(12 n³) for f(x) = x. With 40,000
+/// seeds the measured ratio has a standard deviation below 0.01.
+#[test]
+fn owen_scrambling_in_one_dimension_has_the_exact_variance() {
+    for m in [2_u32, 4, 6] {
+        let n = 1_u64 << m;
+        let scale = 12.0 * (n as f64).powi(3);
+        let mean = |seed: Seed| -> f64 {
+            let words = (0..n).map(|i| nested_uniform_scramble_64(i << (64 - m), seed.bits64()));
+            words.map(unit_f64).sum::<f64>() / n as f64
+        };
+        let ratio = scale * squared_error(n, 0.5, mean);
+        assert!((ratio - 1.0).abs() < 0.05, "64 bits, n = {n}: {ratio}");
+
+        let mean = |seed: Seed| -> f64 {
+            let words = (0..n as u32).map(|i| nested_uniform_scramble_32(i << (32 - m), seed.bits32()));
+            words.map(|word| (f64::from(word) + 0.5) / 2f64.powi(32)).sum::<f64>() / n as f64
+        };
+        let ratio = scale * squared_error(n, 0.5, mean);
+        assert!((ratio - 1.0).abs() < 0.05, "32 bits, n = {n}: {ratio}");
+    }
+}
+
+#[test]
+fn a_digital_shift_has_the_exact_variance() {
+    for n in [4_u64, 16, 64] {
+        let apply = Scrambling::DigitalShift.entry().apply;
+        let mean = |seed: Seed| -> f64 {
+            let words = (0..n).map(|i| apply(i.reverse_bits(), seed));
+            words.map(unit_f64).sum::<f64>() / n as f64
+        };
+        let ratio = 12.0 * (n * n) as f64 * squared_error(n, 0.5, mean);
+        assert!((ratio - 1.0).abs() < 0.05, "n = {n}: {ratio}");
+    }
+}
+
+/// For f(x, y) = xy and 2^m points of a (0, m, 2)-net, n³ Var = 7 (3m + 4) / 576. Heavier tails than
+/// in one dimension: 10 % is five standard deviations of 8,000 replicates.
+#[test]
+fn owen_scrambling_in_two_dimensions_has_the_exact_variance() {
+    for m in 3..=7 {
+        let n = 1_usize << m;
+        let mut rows = vec![0.0; 2 * n];
+        let errors = (0..8_000).map(|r| {
+            sobol(2, Scrambling::Owen, Seed::new(m).replicate(r)).fill(0..n as u64, &mut rows);
+            let mean = rows.chunks_exact(2).map(|x| x[0] * x[1]).sum::<f64>() / n as f64;
+            (mean - 0.25).powi(2)
+        });
+        let variance = errors.sum::<f64>() / 8_000.0;
+        let ratio = (n as f64).powi(3) * variance * 576.0 / (7 * (3 * m + 4)) as f64;
+        assert!((ratio - 1.0).abs() < 0.1, "m = {m}: {ratio}");
+    }
+}
+
+/// The same law in other bases: n = p^k points of one Halton coordinate, whatever the prime.
+#[test]
+fn scrambled_halton_has_the_exact_variance() {
+    for (dim, n) in [(0, 8), (1, 3), (1, 27), (2, 25), (4, 11)] {
+        let errors = (0..8_000).map(|r| {
+            let points = Halton::new(dim + 1, Scrambling::Owen, Seed::new(n).replicate(r));
+            let mean = (0..n).map(|i| points.coord(i, dim)).sum::<f64>() / n as f64;
+            (mean - 0.5).powi(2)
+        });
+        let ratio = 12.0 * (n as f64).powi(3) * errors.sum::<f64>() / 8_000.0;
+        assert!((ratio - 1.0).abs() < 0.1, "dimension {dim}, n = {n}: {ratio}");
+    }
+}

@@ -1,0 +1,94 @@
+"""Where to look: point sequences of the unit cube, deterministic in their seed.
+
+`Sobol` for integration, `Halton` for any number of points, `Independent` as the yardstick. All follow
+`scipy.stats.qmc.QMCEngine` and have random access besides: ``Sobol(3, seed=7).points(1000, 2000)``.
+"""
+
+from typing import NamedTuple, SupportsIndex
+
+from evenlight import _core
+
+from .engine import Engine, SeedLike
+from .halton import Halton
+from .independent import Independent
+from .sobol import Sobol
+
+__all__ = ["SEQUENCES", "Engine", "Halton", "Independent", "SequenceInfo", "Sobol", "available", "build"]
+
+SEQUENCES: dict[str, type[Sobol | Halton | Independent]] = {
+    sequence.sequence: sequence for sequence in (Sobol, Halton, Independent)
+}
+"""The classes by their names in the registry."""
+
+
+class SequenceInfo(NamedTuple):
+    """What a sequence says about itself."""
+
+    name: str
+    """Its name everywhere."""
+    cite: str
+    """Where it was published."""
+    scrambles: tuple[str, ...]
+    """The scrambles it takes, its default first."""
+    most_dims: int
+    """The most dimensions it has."""
+
+
+def available() -> tuple[SequenceInfo, ...]:
+    """List the sequences.
+
+    Returns
+    -------
+    tuple of SequenceInfo
+        Name, citation, accepted scrambles (default first) and most dimensions of each.
+
+    Examples
+    --------
+    >>> from evenlight import points
+    >>> [info.name for info in points.available()]
+    ['sobol', 'halton', 'independent']
+    """
+    return tuple(
+        SequenceInfo(name, cite, tuple(scrambles), most_dims)
+        for name, cite, scrambles, most_dims in _core.available_sequences()
+    )
+
+
+def build(name: str, d: SupportsIndex, *, scramble: str | None = None, seed: SeedLike = None) -> Engine:
+    """Build a sequence from plain values, such as those of a settings file.
+
+    Parameters
+    ----------
+    name : str
+        One of `available`.
+    d : int
+        The number of coordinates of a point.
+    scramble : str, optional
+        One that the sequence takes; its first by default.
+    seed : int or numpy.random.Generator, optional
+        The same number always gives the same bits; 0 by default.
+
+    Returns
+    -------
+    Engine
+        A `Sobol`, `Halton` or `Independent`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a name is unknown or an argument out of range; the message says what is allowed.
+
+    Examples
+    --------
+    >>> from evenlight import points
+    >>> points.build("halton", 2, seed=3)
+    Halton(2, scramble='owen', seed=3)
+    """
+    if name not in SEQUENCES:
+        raise ValueError(f"unknown sequence {name!r}; known: {', '.join(SEQUENCES)}")
+    sequence = SEQUENCES[name]
+    if issubclass(sequence, Independent):
+        if scramble not in (None, "none"):
+            raise ValueError(f"sequence 'independent' does not accept scramble {scramble!r}; accepted: none")
+        return sequence(d, seed=seed)
+    return sequence(d, seed=seed) if scramble is None else sequence(d, scramble=scramble, seed=seed)

@@ -1,0 +1,51 @@
+"""Halton points: for numbers of points that are not powers of 2."""
+
+from typing import SupportsIndex
+
+from .engine import Engine, SeedLike
+
+__all__ = ["Halton"]
+
+
+class Halton(Engine):
+    """Halton points: the radical inverse of the row number in one prime for each dimension.
+
+    No number of points is special, and the first 10 or so dimensions are well spread. In high
+    dimensions prefer `Sobol`.
+
+    Parameters
+    ----------
+    d : int
+        1 to 6,542, the number of primes below 2^16.
+    scramble : {"owen", "none"}
+        "owen": each digit is permuted according to all digits before it, so that every point is
+        uniform and different seeds are independent. "none": the construction itself.
+    seed, rng : int or numpy.random.Generator, optional
+        The same number always gives the same bits; 0 by default. Two names, for SciPy's sake.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not as above.
+
+    Notes
+    -----
+    Some ten nanoseconds per coordinate, more in the first dimensions. References: J. H. Halton, Numer.
+    Math. 2, 84-90 (1960); A. B. Owen, *Randomly permuted (t,m,s)-nets and (t,s)-sequences* (1995). The
+    permutations are random affine maps modulo the prime, which give the same mean and variance as
+    uniform ones (J. Matousek, J. Complexity 14, 527-556, 1998).
+
+    Examples
+    --------
+    >>> from evenlight.points import Halton
+    >>> Halton(2, scramble="none").points(1, 3).round(4)
+    array([[0.5   , 0.3333],
+           [0.25  , 0.6667]])
+    """
+
+    sequence = "halton"
+
+    def __init__(
+        self, d: SupportsIndex, *, scramble: str = "owen", seed: SeedLike = None, rng: SeedLike = None
+    ) -> None:
+        super().__init__(d, scramble=scramble, seed=seed, rng=rng)

@@ -1,0 +1,106 @@
+"""Sobol' points: the default for integration."""
+
+import warnings
+from typing import SupportsIndex
+
+import numpy as np
+import numpy.typing as npt
+
+from .engine import Engine, SeedLike
+
+__all__ = ["Sobol"]
+
+
+class Sobol(Engine):
+    """Sobol' points with Joe and Kuo's direction numbers, up to 21,201 dimensions and 64 digits deep.
+
+    The rows come in natural order with row 0 included; any n = 2^m rows from a multiple of n on form a
+    net. Take powers of 2 of them. With the default scramble every point is uniform, the root mean
+    squared error for smooth integrands falls nearly as n^(-3/2), and different seeds are independent.
+
+    Parameters
+    ----------
+    d : int
+        1 to 21,201.
+    scramble : {"owen", "digital_shift", "none"}
+        "owen": nested uniform scrambling, by hashing. "digital_shift": one random shift of all digits.
+        "none": the construction itself, which begins with the corner 0.
+    seed, rng : int or numpy.random.Generator, optional
+        The same number always gives the same bits; 0 by default. Two names, for SciPy's sake.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not as above.
+
+    Warns
+    -----
+    UserWarning
+        Once, if the first call of `random` asks for a number of rows that is not a power of 2.
+
+    Notes
+    -----
+    About a nanosecond per coordinate into a used array; setting up costs a few microseconds per
+    dimension. References: I. M. Sobol', USSR Comput. Math. Math. Phys. 7(4), 86-112 (1967); S. Joe and
+    F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635-2654 (2008); A. B. Owen, *Randomly permuted (t,m,s)-nets and
+    (t,s)-sequences* (1995); hashed as in B. Burley, JCGT 9(4), 1-20 (2020), with N. Vegdahl's constants.
+
+    Examples
+    --------
+    >>> from evenlight.points import Sobol
+    >>> sobol = Sobol(2, seed=7)
+    >>> sobol.random(4).shape
+    (4, 2)
+    >>> bool((sobol.points(0, 4) == Sobol(2, seed=7).random(4)).all())
+    True
+    """
+
+    sequence = "sobol"
+    _warned = False
+
+    def __init__(
+        self, d: SupportsIndex, *, scramble: str = "owen", seed: SeedLike = None, rng: SeedLike = None
+    ) -> None:
+        super().__init__(d, scramble=scramble, seed=seed, rng=rng)
+
+    def random_base2(self, m: SupportsIndex) -> npt.NDArray[np.float64]:
+        """Draw the next 2^m rows.
+
+        Parameters
+        ----------
+        m : int
+            At least 0.
+
+        Returns
+        -------
+        ndarray of float64, shape (2^m, d)
+            Numbers in [0, 1).
+
+        Raises
+        ------
+        ValueError
+            If with these the rows drawn so far do not number a power of 2, as in SciPy.
+        """
+        n = 1 << m.__index__()
+        total = self.num_generated + n
+        if total & (total - 1):
+            raise ValueError(
+                f"{self.num_generated} rows were drawn already; with 2^{m} more the total {total} is not a "
+                "power of 2. `random` draws any number"
+            )
+        return self.random(n)
+
+    def _random(  # type: ignore[override]  # any integer will do
+        self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1
+    ) -> npt.NDArray[np.float64]:
+        rows = super()._random(n, workers=workers)
+        count = len(rows)
+        if count & (count - 1) and self.num_generated == 0 and not self._warned:
+            self._warned = True
+            upper = 1 << count.bit_length()
+            warnings.warn(
+                f"Sobol' points are balanced in powers of 2: take n = {upper} or {upper // 2}, not {count}",
+                UserWarning,
+                stacklevel=3,
+            )
+        return rows

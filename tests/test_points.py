@@ -1,0 +1,311 @@
+"""Contracts of the point sequences: SciPy's protocol, exact bits, random access, clear refusals."""
+
+import copy
+import doctest
+import importlib
+import pickle
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from scipy.integrate import qmc_quad
+from scipy.stats import qmc
+
+from evenlight import points
+from evenlight.points import Engine, Halton, Independent, Sobol
+
+ENGINES: list[tuple[str, dict[str, Any]]] = [
+    (info.name, {} if info.name == "independent" else {"scramble": scramble})
+    for info in points.available()
+    for scramble in info.scrambles
+]
+IDS = [f"{name}-{settings.get('scramble', 'none')}" for name, settings in ENGINES]
+every_engine = pytest.mark.parametrize(("name", "settings"), ENGINES, ids=IDS)
+
+
+def engine(name: str, settings: dict[str, Any], d: int = 3, seed: int = 11) -> Engine:
+    return points.SEQUENCES[name](d, seed=seed, **settings)
+
+
+# --- SciPy's protocol: the checks of its own QMCEngineTests, but exact to the bit ---
+
+
+@every_engine
+def test_rows_are_in_the_half_open_cube(name: str, settings: dict[str, Any]) -> None:
+    sample = engine(name, settings, d=10).random(1024)
+    assert sample.shape == (1024, 10)
+    assert sample.dtype == np.float64
+    assert sample.min() >= 0
+    assert sample.max() < 1
+
+
+@every_engine
+def test_no_rows_are_an_empty_array(name: str, settings: dict[str, Any]) -> None:
+    assert engine(name, settings).random(0).shape == (0, 3)
+
+
+@every_engine
+def test_drawing_in_parts_is_drawing_at_once(name: str, settings: dict[str, Any]) -> None:
+    parts = engine(name, settings)
+    joined = np.concatenate([parts.random(4), parts.random(1), parts.random(3)])
+    assert parts.num_generated == 8
+    np.testing.assert_array_equal(joined, engine(name, settings).random(8))
+
+
+@every_engine
+def test_reset_begins_again(name: str, settings: dict[str, Any]) -> None:
+    sequence = engine(name, settings)
+    first = sequence.random(8)
+    assert sequence.reset() is sequence
+    assert sequence.num_generated == 0
+    np.testing.assert_array_equal(sequence.random(8), first)
+
+
+@every_engine
+@pytest.mark.parametrize("skipped", [0, 1, 5, 2**40])
+def test_fast_forward_skips_rows(name: str, settings: dict[str, Any], skipped: int) -> None:
+    sequence = engine(name, settings)
+    assert sequence.fast_forward(skipped) is sequence
+    np.testing.assert_array_equal(sequence.random(4), engine(name, settings).points(skipped, skipped + 4))
+
+
+@every_engine
+def test_more_dimensions_keep_the_first(name: str, settings: dict[str, Any]) -> None:
+    few, many = engine(name, settings, d=2).random(16), engine(name, settings, d=40).random(16)
+    np.testing.assert_array_equal(few, many[:, :2])
+
+
+@every_engine
+def test_moments_are_those_of_the_uniform_distribution(name: str, settings: dict[str, Any]) -> None:
+    sample = engine(name, settings, d=5).random(2**14)
+    # Five standard deviations for independent rows, far more for all others.
+    assert np.abs(sample.mean(axis=0) - 1 / 2).max() < 5 / np.sqrt(12 * 2**14)
+    assert np.abs(sample.var(axis=0) - 1 / 12).max() < 5 / np.sqrt(180 * 2**14)
+    np.testing.assert_allclose(np.percentile(sample, 25, axis=0), 0.25, atol=0.02)
+
+
+@every_engine
+def test_scipy_draws_integers(name: str, settings: dict[str, Any]) -> None:
+    sample = engine(name, settings).integers(2, u_bounds=[5, 6, 7], n=256)
+    assert sample.min() == 2
+    assert sample.max(axis=0).tolist() == [4, 5, 6]
+
+
+@every_engine
+def test_scipy_integrates_with_it(name: str, settings: dict[str, Any]) -> None:
+    def f(x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        product: npt.NDArray[np.float64] = 8 * x[0] * x[1] * x[2]
+        return product
+
+    found = qmc_quad(f, np.zeros(3), np.ones(3), n_points=1024, n_estimates=8, qrng=engine(name, settings))
+    assert found.integral == pytest.approx(1, abs=max(6 * found.standard_error, 0.02))
+    if settings.get("scramble") != "none":
+        assert 0 < found.standard_error < 0.05
+
+
+def test_scipy_makes_normal_points() -> None:
+    normal = qmc.MultivariateNormalQMC(np.zeros(3), engine=Sobol(3, seed=1)).random(1024)
+    assert np.isfinite(normal).all()
+    assert np.abs(normal.mean(axis=0)).max() < 0.01
+
+
+# --- seeds ---
+
+
+@every_engine
+def test_same_seed_same_bits(name: str, settings: dict[str, Any]) -> None:
+    first, again = engine(name, settings, seed=5), engine(name, settings, seed=5)
+    np.testing.assert_array_equal(first.random(16), again.random(16))
+    default = points.SEQUENCES[name](3, **settings)
+    np.testing.assert_array_equal(default.random(16), engine(name, settings, seed=0).random(16))
+    if settings.get("scramble") != "none":
+        assert not np.array_equal(first.points(0, 4), engine(name, settings, seed=6).points(0, 4))
+
+
+def test_seed_and_rng_are_the_same_argument() -> None:
+    np.testing.assert_array_equal(Sobol(2, rng=9).random(8), Sobol(2, seed=9).random(8))
+    generator = np.random.default_rng(3)
+    one, two = Sobol(2, rng=generator), Sobol(2, seed=generator)
+    assert one.seed != two.seed
+    assert one.seed == Sobol(2, rng=np.random.default_rng(3)).seed
+    assert Sobol(2, seed=2**64 - 1).seed == 2**64 - 1
+
+
+@every_engine
+def test_a_copy_goes_on_where_the_original_was(name: str, settings: dict[str, Any]) -> None:
+    original = engine(name, settings)
+    original.random(8)
+    pickled, copied = pickle.loads(pickle.dumps(original)), copy.deepcopy(original)
+    expected = original.random(8)
+    np.testing.assert_array_equal(pickled.random(8), expected)
+    np.testing.assert_array_equal(copied.random(8), expected)
+
+
+def test_golden_bits_reach_python() -> None:
+    golden = Path(__file__).parents[1] / "crates" / "points" / "tests" / "golden.txt"
+    for line in golden.read_text().splitlines():
+        name, scramble, index, *bits = line.split()
+        row = int(index)
+        sequence = points.build(name, 40, scramble=scramble, seed=7)
+        if row == 2**64 - 1:  # no half-open range contains the last row
+            continue
+        values = sequence.points(row, row + 1)[0, [0, 1, 5, 39]]
+        assert [f"{word:016x}" for word in values.view(np.uint64)] == bits, line
+
+
+# --- known points ---
+
+
+@pytest.mark.parametrize(("d", "m"), [(1, 4), (5, 10), (300, 6)])
+def test_plain_sobol_points_are_those_of_scipy(d: int, m: int) -> None:
+    ours = Sobol(d, scramble="none").random(2**m)
+    theirs = qmc.Sobol(d, scramble=False).random(2**m)
+    # SciPy's order is that of the Gray code: the same set of rows in every block of 2^m.
+    np.testing.assert_array_equal(ours[np.lexsort(ours.T)], theirs[np.lexsort(theirs.T)])
+    order = np.arange(2**m)
+    np.testing.assert_array_equal(ours[order ^ (order >> 1)], theirs)
+
+
+def test_the_last_sobol_dimension_is_that_of_scipy() -> None:
+    order = np.arange(16)
+    ours = Sobol(21_201, scramble="none").points(0, 16)
+    np.testing.assert_array_equal(ours[order ^ (order >> 1)], qmc.Sobol(21_201, scramble=False).random(16))
+
+
+def test_plain_halton_points_are_those_of_scipy() -> None:
+    ours, theirs = Halton(50, scramble="none").random(500), qmc.Halton(50, scramble=False).random(500)
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-15)
+
+
+def test_scrambling_keeps_the_discrepancy_low() -> None:
+    limit = 0.1 * qmc.discrepancy(Independent(4, seed=1).random(1024))
+    assert qmc.discrepancy(Sobol(4, seed=1).random(1024)) < limit
+    assert qmc.discrepancy(Halton(4, seed=1).random(1024)) < limit
+
+
+# --- arrays ---
+
+
+@every_engine
+def test_points_go_into_the_given_array(name: str, settings: dict[str, Any]) -> None:
+    sequence = engine(name, settings)
+    expected = sequence.points(5, 25)
+    out = np.empty((20, 3))
+    assert sequence.points(5, 25, out) is out
+    np.testing.assert_array_equal(out, expected)
+    single = sequence.points(5, 25, np.empty((20, 3), dtype=np.float32))
+    assert single.dtype == np.float32
+    assert single.max() < 1
+    gap = expected - single
+    assert gap.min() >= 0
+    assert gap.max() < 2**-24
+
+
+def test_wrong_arrays_are_refused() -> None:
+    sobol = Sobol(2)
+    with pytest.raises(ValueError, match=r"out must have shape \(8, 2\), not \(8, 3\)"):
+        sobol.points(0, 8, np.empty((8, 3)))
+    with pytest.raises(ValueError, match=r"out must have shape \(8, 2\), not \(16,\)"):
+        sobol.points(0, 8, np.empty(16))
+    with pytest.raises(ValueError, match="out must be C-contiguous"):
+        sobol.points(0, 8, np.empty((2, 8)).T)
+    with pytest.raises(TypeError, match="writable array of float64 or float32, not int64"):
+        sobol.points(0, 8, np.empty((8, 2), dtype=np.int64))  # type: ignore[type-var]
+    with pytest.raises(TypeError, match="out must be a numpy array, not list"):
+        sobol.points(0, 8, [[0.0, 0.0]] * 8)  # type: ignore[call-overload]
+    constant = np.empty((8, 2))
+    constant.flags.writeable = False
+    with pytest.raises(TypeError, match="out must be a writable array"):
+        sobol.points(0, 8, constant)
+
+
+# --- refusals ---
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: points.build("sobul", 2), "unknown sequence 'sobul'; known: sobol, halton, independent"),
+        (lambda: Sobol(2, scramble="own"), "unknown scramble 'own'; known: none, digital_shift, owen"),
+        (lambda: Halton(2, scramble="digital_shift"), "'digital_shift'; accepted: owen, none"),
+        (lambda: points.build("independent", 2, scramble="owen"), "'owen'; accepted: none"),
+        (lambda: Sobol(21_202), "1 to 21201 dimensions, not 21202"),
+        (lambda: Halton(6_543), "1 to 6542 dimensions, not 6543"),
+        (lambda: Sobol(0), "d must be at least 1, not 0"),
+        (lambda: Sobol(2, seed=-1), "seed must be at least 0, not -1"),
+        (lambda: Sobol(2, seed=2**64), "seed must be below 2\\^64"),
+        (lambda: Sobol(2).random(-1), "n must be at least 0, not -1"),
+        (lambda: Sobol(2).fast_forward(-3), "n must be at least 0, not -3"),
+        (lambda: Sobol(2).points(4, 3), "0 <= start <= stop"),
+        (lambda: Sobol(2).points(0, 2**64), "0 <= start <= stop < 2\\^64"),
+        (lambda: Sobol(2).points(-1, 3), "start must be at least 0, not -1"),
+    ],
+)
+def test_wrong_values_are_named(build: Callable[[], object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        build()
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: Sobol(2.5), "d must be an integer, not float"),  # type: ignore[arg-type]
+        (lambda: Sobol(2, seed="7"), "seed must be an integer, not str"),  # type: ignore[arg-type]
+        (lambda: Sobol(2, scramble=True), "scramble must be a string, not bool"),  # type: ignore[arg-type]
+        (lambda: Sobol(2).random(1.5), "n must be an integer, not float"),  # type: ignore[arg-type]
+        (lambda: Sobol(2, seed=1, rng=1), "two names for the same argument"),
+    ],
+)
+def test_wrong_types_are_named(build: Callable[[], object], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        build()
+
+
+def test_unbalanced_sobol_points_warn_once() -> None:
+    sobol = Sobol(2)
+    with pytest.warns(UserWarning, match="take n = 1024 or 512, not 1000"):
+        sobol.random(1000)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sobol.random(3)
+        sobol.reset().random(5)
+        Sobol(2).random(64)
+        Halton(2).random(1000)
+
+
+def test_random_base2_keeps_totals_balanced() -> None:
+    sobol = Sobol(2)
+    np.testing.assert_array_equal(sobol.random_base2(3), sobol.points(0, 8))
+    sobol.random_base2(3)
+    with pytest.raises(ValueError, match="16 rows were drawn already"):
+        sobol.random_base2(3)
+
+
+# --- the registry ---
+
+
+def test_every_registered_sequence_has_its_class_and_its_own_default() -> None:
+    assert [info.name for info in points.available()] == list(points.SEQUENCES)
+    for info in points.available():
+        assert info.cite
+        built = points.build(info.name, 2, seed=4)
+        assert type(built) is points.SEQUENCES[info.name]
+        assert built.scramble == info.scrambles[0]
+        widest = points.build(info.name, min(info.most_dims, 10**5))
+        assert widest.points(1, 2).max() < 1
+
+
+def test_the_expression_that_builds_an_engine_is_its_representation() -> None:
+    assert repr(Sobol(3, seed=7)) == "Sobol(3, scramble='owen', seed=7)"
+    assert repr(Independent(3)) == "Independent(3, seed=0)"
+
+
+@pytest.mark.parametrize("module", ["", ".engine", ".sobol", ".halton", ".independent"])
+def test_examples_in_the_documentation_run(module: str) -> None:
+    found = doctest.testmod(importlib.import_module(f"evenlight.points{module}"))
+    assert found.failed == 0
+    assert found.attempted > 0
