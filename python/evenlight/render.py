@@ -31,6 +31,12 @@ class Scene:
         The ray kernel that was asked for.
     warnings : tuple of str
         What a lenient reader substituted: each with file, line and the substitute.
+
+    Examples
+    --------
+    >>> import evenlight
+    >>> evenlight.load_scene("scenes/sky.xml", reflectance=0.25).parameters
+    {'reflectance': '0.25'}
     """
 
     path: Path
