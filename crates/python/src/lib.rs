@@ -1,14 +1,17 @@
 //! The door between the Rust core and Python: conversions only, no mathematics.
 
+mod errors;
 mod output;
 mod points;
+mod render;
 
 use pyo3::prelude::*;
 
 /// The private extension module behind the `evenlight` package.
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     output::register(module)?;
     points::register(module)?;
-    module.add("__version__", env!("CARGO_PKG_VERSION"))
+    render::register(module)
 }

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use evenlight_render::output::{self, Layer, Size};
 use numpy::{PyReadonlyArray3, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-type Image<'py> = PyReadonlyArray3<'py, f32>;
+use crate::errors::raise;
 
 /// Adds this room to the extension module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -17,10 +17,12 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(write_png, module)?)
 }
 
+type Image<'py> = PyReadonlyArray3<'py, f32>;
+
 /// Refuse a path that cannot be written, before the work is done.
 #[pyfunction]
 fn check_writable(path: PathBuf) -> PyResult<()> {
-    output::check_writable(&path).map_err(|error| PyOSError::new_err(error.to_string()))
+    output::check_writable(&path).map_err(raise)
 }
 
 /// Write `(name, channels, (H, W, C) array)` layers as one OpenEXR file.
@@ -42,7 +44,7 @@ fn write_exr(
         .zip(&channels)
         .map(|((name, _, image), channels)| Ok(Layer { name, channels, pixels: image.as_slice()? }));
     let plain = plain.collect::<PyResult<Vec<_>>>()?;
-    py.detach(|| output::write_exr(&path, size, &plain, &metadata)).map_err(to_python)
+    py.detach(|| output::write_exr(&path, size, &plain, &metadata)).map_err(raise)
 }
 
 /// Write a linear `(H, W, 3)` array as an 8-bit sRGB preview.
@@ -56,12 +58,5 @@ fn write_png(
 ) -> PyResult<()> {
     let size = Size { width: image.shape()[1], height: image.shape()[0] };
     let pixels = image.as_slice()?;
-    py.detach(|| output::write_png(&path, size, pixels, exposure, &metadata)).map_err(to_python)
-}
-
-fn to_python(error: evenlight_render::Error) -> PyErr {
-    match error {
-        evenlight_render::Error::Io { .. } => PyOSError::new_err(error.to_string()),
-        other => PyValueError::new_err(other.to_string()),
-    }
+    py.detach(|| output::write_png(&path, size, pixels, exposure, &metadata)).map_err(raise)
 }

@@ -3,7 +3,17 @@
 //! All kernels see the scene as one list of triangles in world space. They must be watertight: a ray through a shared edge
 //! or vertex of a closed mesh never slips through.
 
+mod embree;
+mod wide;
+
+use std::path::Path;
+use std::str::FromStr;
+
+pub use embree::{BuildQuality, Embree};
+pub use wide::Wide;
+
 use crate::geometry::Ray;
+use crate::{Error, Result};
 
 /// Where a ray met a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +37,13 @@ pub struct TriangleSoup<'a> {
     pub indices: &'a [[u32; 3]],
 }
 
+impl TriangleSoup<'_> {
+    /// The vertices of one triangle.
+    pub(crate) fn vertices(&self, triangle: usize) -> [[f32; 3]; 3] {
+        self.indices[triangle].map(|vertex| self.positions[vertex as usize])
+    }
+}
+
 /// A ray kernel: built once, then shared by all threads.
 pub trait RayKernel: Send + Sync {
     /// The kernel's name in settings and metadata.
@@ -37,4 +54,63 @@ pub trait RayKernel: Send + Sync {
 
     /// Whether any triangle lies at `0 < t < ray.t_max`.
     fn occluded(&self, ray: &Ray) -> bool;
+}
+
+/// The kernels by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum KernelChoice {
+    /// The faster of the watertight kernels: [`Wide`].
+    #[default]
+    Auto,
+    /// Intel Embree 4, robust mode, from a shared library.
+    Embree,
+    /// The house kernel.
+    Wide,
+}
+
+impl KernelChoice {
+    /// All choices, in the order of error messages.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Embree, Self::Wide];
+
+    /// The name in settings.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Embree => "embree",
+            Self::Wide => "wide",
+        }
+    }
+}
+
+impl FromStr for KernelChoice {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        Self::ALL.into_iter().find(|choice| choice.name() == name).ok_or_else(|| {
+            let known = Self::ALL.map(Self::name).join(", ");
+            Error::Settings(format!("unknown ray kernel '{name}'; known: {known}"))
+        })
+    }
+}
+
+/// Build the kernel of choice; `embree_library` is the path to the shared library of Embree 4.
+///
+/// # Errors
+/// When Embree is asked for and its library is not given, cannot be loaded or has another version.
+pub fn build(
+    choice: KernelChoice,
+    soup: &TriangleSoup,
+    embree_library: Option<&Path>,
+) -> Result<Box<dyn RayKernel>> {
+    match choice {
+        KernelChoice::Auto | KernelChoice::Wide => Ok(Box::new(Wide::build(soup))),
+        KernelChoice::Embree => {
+            let library = embree_library.ok_or_else(|| {
+                Error::Settings(
+                    "the ray kernel 'embree' needs the path of the shared library of Embree 4".into(),
+                )
+            })?;
+            Ok(Box::new(Embree::build(soup, library, BuildQuality::High)?))
+        }
+    }
 }

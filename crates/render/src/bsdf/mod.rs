@@ -36,6 +36,27 @@ pub struct BsdfSample {
     pub eta: f32,
 }
 
+impl BsdfSample {
+    /// A delta lobe that reflects about the normal, chosen with `probability`.
+    #[inline]
+    fn mirror(wo: Vec3, weight: Rgb, probability: f32) -> Self {
+        let wi = Vec3::new(-wo.x, -wo.y, wo.z);
+        Self { wi, weight, density: probability, delta: true, eta: 1.0 }
+    }
+
+    /// A delta lobe that goes straight on, chosen with `probability`.
+    #[inline]
+    fn pass_through(wo: Vec3, weight: Rgb, probability: f32) -> Self {
+        Self { wi: -wo, weight, density: probability, delta: true, eta: 1.0 }
+    }
+
+    /// A sample of a smooth reflection lobe, unless it cannot be reached.
+    #[inline]
+    fn smooth(wi: Vec3, BsdfValue { value, density }: BsdfValue) -> Option<Self> {
+        (density > 0.0).then(|| Self { wi, weight: value / density, density, delta: false, eta: 1.0 })
+    }
+}
+
 /// A scattering function.
 pub trait Bsdf: Send + Sync {
     /// Sample `wi`: `lobe` chooses among lobes, `u` is a point of the unit square. `None`: absorbed.
@@ -54,11 +75,52 @@ pub trait Bsdf: Send + Sync {
         false
     }
 
+    /// Whether light may pass to the other side.
+    fn transmits(&self) -> bool {
+        false
+    }
+
     /// Directional albedo, roughly: what the albedo layer of the film shows.
     fn albedo(&self, surface: &Surface) -> Rgb;
 }
 
+pub mod blendbsdf;
+pub mod bumpmap;
+pub mod conductor;
+pub mod dielectric;
 pub mod diffuse;
+pub mod mask;
+pub mod normalmap;
+pub mod null;
+pub mod plastic;
+pub mod roughconductor;
+pub mod roughdielectric;
+pub mod roughplastic;
+pub mod thindielectric;
+pub mod twosided;
+
+mod coat;
+mod fresnel;
+mod gauss;
+mod metal;
+mod microfacet;
+mod perturbed;
+mod warp;
 
 /// The scattering functions there are.
-pub static ALL: &[crate::scene::build::Entry<dyn Bsdf>] = &[diffuse::ENTRY];
+pub static ALL: &[crate::scene::build::Entry<dyn Bsdf>] = &[
+    blendbsdf::ENTRY,
+    bumpmap::ENTRY,
+    conductor::ENTRY,
+    dielectric::ENTRY,
+    diffuse::ENTRY,
+    mask::ENTRY,
+    normalmap::ENTRY,
+    null::ENTRY,
+    plastic::ENTRY,
+    roughconductor::ENTRY,
+    roughdielectric::ENTRY,
+    roughplastic::ENTRY,
+    thindielectric::ENTRY,
+    twosided::ENTRY,
+];

@@ -35,6 +35,11 @@ pub struct Builder {
 }
 
 impl Builder {
+    /// Nothing built yet.
+    pub fn new(lenient: bool) -> Self {
+        Self { lenient, ..Self::default() }
+    }
+
     /// Build a node by its family's registry and insist that nothing is left over.
     /// An unknown plugin gives `substitute()` with a warning when lenient.
     pub fn from_registry<T: ?Sized>(
@@ -45,15 +50,24 @@ impl Builder {
     ) -> Result<Arc<T>> {
         let properties = Properties::new(node);
         let Some(entry) = registry.iter().find(|entry| entry.name == node.plugin) else {
-            let known = registry.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ");
-            let element = node.kind.element();
-            let message = format!("unknown {element} '{}'; known: {known}", node.plugin);
-            self.forgive(Error::Scene { location: node.location.clone(), message }, substitute.0)?;
+            self.unknown_plugin(node, registry.iter().map(|entry| entry.name), substitute.0)?;
             return Ok(substitute.1());
         };
         let built = (entry.build)(&properties, self)?;
         self.finish(&properties)?;
         Ok(built)
+    }
+
+    /// Complain about a plugin that is not among those of its family.
+    pub fn unknown_plugin(
+        &mut self,
+        node: &Node,
+        known: impl Iterator<Item = &'static str>,
+        substitute: &str,
+    ) -> Result<()> {
+        let known = known.collect::<Vec<_>>().join(", ");
+        let message = format!("unknown {} '{}'; known: {known}", node.kind.element(), node.plugin);
+        self.forgive(Error::Scene { location: node.location.clone(), message }, substitute)
     }
 
     /// Insist that nothing is left over; when lenient, ignore it with a warning.

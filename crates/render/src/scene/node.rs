@@ -136,3 +136,18 @@ pub struct Node {
     /// The scene folder that relative file names are resolved against and, unless allowed, must not leave.
     pub folder: Arc<PathBuf>,
 }
+
+impl Node {
+    /// A plugin with nothing but defaults.
+    pub fn empty(kind: Kind, plugin: &str) -> Self {
+        Self {
+            kind,
+            plugin: plugin.to_owned(),
+            id: None,
+            location: Location::default(),
+            parameters: Vec::new(),
+            children: Vec::new(),
+            folder: Arc::default(),
+        }
+    }
+}

@@ -85,6 +85,15 @@ impl<'a> Properties<'a> {
         Ok(self.optional_float(name)?.unwrap_or(default))
     }
 
+    /// A finite number above 0, with a default.
+    pub fn positive_float(&self, name: &str, default: f32) -> Result<f32> {
+        let value = self.float(name, default)?;
+        if value > 0.0 && value.is_finite() {
+            return Ok(value);
+        }
+        Err(self.error(format_args!("{name} must be positive, not {value}")))
+    }
+
     /// A whole number, if given.
     pub fn optional_integer(&self, name: &str) -> Result<Option<i64>> {
         match self.parameter(name) {
@@ -168,6 +177,11 @@ impl<'a> Properties<'a> {
             let given = Path::new(given);
             if given.is_absolute() { given.to_owned() } else { self.node.folder.join(given) }
         }))
+    }
+
+    /// [`Properties::path`] of a parameter that must be given.
+    pub fn required_path(&self, name: &str) -> Result<PathBuf> {
+        self.path(name)?.ok_or_else(|| self.error(format_args!("needs a '{name}'")))
     }
 
     /// The nested plugin of this kind under this name, if any.

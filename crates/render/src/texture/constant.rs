@@ -1,6 +1,6 @@
 //! The same color everywhere.
 
-use crate::geometry::{Rgb, Vec2, luminance};
+use crate::geometry::{Rgb, Vec2};
 use crate::texture::Texture;
 
 /// A constant color.
@@ -12,7 +12,7 @@ impl Texture for Constant {
     }
 
     fn evaluate_scalar(&self, _: Vec2) -> f32 {
-        luminance(self.0)
+        self.0.element_sum() / 3.0 // not luminance: Mitsuba 3 averages the channels of constants
     }
 
     fn gradient(&self, _: Vec2) -> Vec2 {

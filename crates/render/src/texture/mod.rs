@@ -24,8 +24,13 @@ pub trait Texture: Send + Sync {
     }
 }
 
+pub mod bitmap;
+pub mod checkerboard;
 pub mod constant;
+mod coordinates;
 pub mod image;
+pub(crate) mod slot;
+mod texels;
 
 /// The textures there are.
-pub static ALL: &[crate::scene::build::Entry<dyn Texture>] = &[];
+pub static ALL: &[crate::scene::build::Entry<dyn Texture>] = &[bitmap::ENTRY, checkerboard::ENTRY];

@@ -1,0 +1,158 @@
+//! From a binary tree to an eight-wide one, by dynamic programming over the surface area heuristic.
+//!
+//! Ylitie, Karras and Laine 2017 ("Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 4.2):
+//! `cost(n, i)` is the least cost of representing the subtree of node `n` as a forest of at most `i` wide trees.
+
+use std::collections::BTreeSet;
+
+use obvhs::bvh2::Bvh2;
+
+use super::leaf::{LEAF_WIDTH, Leaf};
+use super::node::{Child, NODE_WIDTH, Node};
+use crate::accel::TriangleSoup;
+
+/// Cost of testing one inner node, in units of one leaf (measured: see `examples/ray_kernels.rs`).
+const NODE_COST: f32 = 1.0;
+
+/// The wide tree in traversal order.
+pub(super) struct Tree {
+    /// The root comes first.
+    pub(super) nodes: Vec<Node>,
+    pub(super) leaves: Vec<Leaf>,
+    /// Levels of inner nodes.
+    pub(super) depth: usize,
+}
+
+/// How one binary node is best represented.
+#[derive(Clone, Copy, Default)]
+struct Plan {
+    /// `cost[i]`: as a forest of at most `i + 1` wide trees.
+    cost: [f32; NODE_WIDTH],
+    /// `left[i]`: how many of those trees the left child gets; 0 when one tree fewer is as good.
+    left: [u8; NODE_WIDTH],
+    /// Triangles below.
+    triangles: u32,
+    /// Whether a single tree is a leaf.
+    leaf: bool,
+}
+
+/// Plan all nodes bottom-up, then emit the best wide tree top-down.
+pub(super) fn collapse(bvh: &Bvh2, soup: &TriangleSoup) -> Tree {
+    let mut tree = Tree { nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 };
+    if bvh.nodes.is_empty() {
+        return tree;
+    }
+    let plans = plan(bvh);
+    let mut pending = vec![(0_usize, 0_u32, 1_usize)];
+    let mut children = Vec::with_capacity(NODE_WIDTH);
+    while let Some((slot, root, depth)) = pending.pop() {
+        tree.depth = tree.depth.max(depth);
+        children.clear();
+        if bvh.nodes[root as usize].is_leaf() {
+            children.push(root); // a scene of one triangle
+        } else {
+            let first = bvh.nodes[root as usize].first_index;
+            let left = usize::from(plans[root as usize].left[NODE_WIDTH - 1]);
+            gather(bvh, &plans, first, left, &mut children);
+            gather(bvh, &plans, first + 1, NODE_WIDTH - left, &mut children);
+        }
+        let area = |n: &u32| bvh.nodes[*n as usize].aabb().half_area();
+        children.sort_by(|a, b| area(b).total_cmp(&area(a)));
+        for (i, &n) in children.iter().enumerate() {
+            let child = if plans[n as usize].leaf {
+                tree.leaves.push(leaf(bvh, soup, n));
+                Child::leaf(tree.leaves.len() - 1)
+            } else {
+                tree.nodes.push(Node::EMPTY);
+                pending.push((tree.nodes.len() - 1, n, depth + 1));
+                Child::node(tree.nodes.len() - 1)
+            };
+            let aabb = bvh.nodes[n as usize].aabb();
+            tree.nodes[slot].set(i, aabb.min.to_array(), aabb.max.to_array(), child);
+        }
+    }
+    tree
+}
+
+/// The plans of all nodes, children before parents.
+fn plan(bvh: &Bvh2) -> Vec<Plan> {
+    let mut order = vec![0_u32];
+    let mut next = 0;
+    while next < order.len() {
+        let node = &bvh.nodes[order[next] as usize];
+        if !node.is_leaf() {
+            order.extend([node.first_index, node.first_index + 1]);
+        }
+        next += 1;
+    }
+    let mut plans = vec![Plan::default(); bvh.nodes.len()];
+    for &n in order.iter().rev() {
+        let node = &bvh.nodes[n as usize];
+        let area = node.aabb().half_area();
+        plans[n as usize] = if node.is_leaf() {
+            Plan { cost: [area; NODE_WIDTH], left: [0; NODE_WIDTH], triangles: node.prim_count, leaf: true }
+        } else {
+            let first = node.first_index as usize;
+            plan_inner(area, &plans[first], &plans[first + 1])
+        };
+    }
+    plans
+}
+
+fn plan_inner(area: f32, left: &Plan, right: &Plan) -> Plan {
+    let mut plan = Plan { triangles: left.triangles + right.triangles, ..Plan::default() };
+    let mut distribute = [f32::INFINITY; NODE_WIDTH];
+    for trees in 2..=NODE_WIDTH {
+        for k in 1..trees {
+            let cost = left.cost[k - 1] + right.cost[trees - k - 1];
+            if cost < distribute[trees - 1] {
+                distribute[trees - 1] = cost;
+                plan.left[trees - 1] = k as u8;
+            }
+        }
+    }
+    let inner = distribute[NODE_WIDTH - 1] + area * NODE_COST;
+    plan.leaf = plan.triangles as usize <= LEAF_WIDTH && area <= inner;
+    plan.cost[0] = if plan.leaf { area } else { inner };
+    for i in 1..NODE_WIDTH {
+        plan.cost[i] = distribute[i].min(plan.cost[i - 1]);
+        // The full width is kept: a node that is opened always distributes.
+        if plan.cost[i - 1] <= distribute[i] && i + 1 < NODE_WIDTH {
+            plan.left[i] = 0;
+        }
+    }
+    plan
+}
+
+/// The roots of the best forest of at most `trees` below `n`.
+fn gather(bvh: &Bvh2, plans: &[Plan], n: u32, mut trees: usize, children: &mut Vec<u32>) {
+    let plan = &plans[n as usize];
+    while trees > 1 && plan.left[trees - 1] == 0 {
+        trees -= 1;
+    }
+    if trees == 1 {
+        children.push(n);
+    } else {
+        let first = bvh.nodes[n as usize].first_index;
+        let left = usize::from(plan.left[trees - 1]);
+        gather(bvh, plans, first, left, children);
+        gather(bvh, plans, first + 1, trees - left, children);
+    }
+}
+
+/// The leaf that holds all triangles below `n`, each once.
+fn leaf(bvh: &Bvh2, soup: &TriangleSoup, n: u32) -> Leaf {
+    let mut triangles = BTreeSet::new(); // split triangles may meet again in one leaf
+    let mut pending = vec![n];
+    while let Some(n) = pending.pop() {
+        let node = &bvh.nodes[n as usize];
+        let first = node.first_index;
+        if node.is_leaf() {
+            let range = first as usize..(first + node.prim_count) as usize;
+            triangles.extend(&bvh.primitive_indices[range]);
+        } else {
+            pending.extend([first, first + 1]);
+        }
+    }
+    Leaf::new(triangles.into_iter().map(|index| (index, soup.vertices(index as usize))))
+}

@@ -1,0 +1,204 @@
+//! One ray through the tree, nearest boxes first.
+#![allow(unsafe_code)] // an unchecked stack; CPU features are promised by the caller
+
+use std::mem::MaybeUninit;
+
+use super::collapse::Tree;
+use super::lanes::Lanes;
+use super::leaf::LeafRay;
+use super::node::{Child, NODE_WIDTH, SlabRay};
+use super::triangle::Shear;
+use crate::accel::TriangleHit;
+use crate::geometry::Ray;
+
+/// Boxes still to be visited. One entry packs the entry distance (high half) and the child (low half) of a box: distances
+/// are not negative, so entries sort as integers, and each is written and read by one instruction of the same width.
+struct Stack<'a> {
+    entries: &'a mut [MaybeUninit<u64>],
+    len: usize,
+}
+
+impl Stack<'_> {
+    /// # Safety
+    /// There must be room.
+    #[inline(always)]
+    unsafe fn push(&mut self, entry: u64) {
+        // SAFETY: the caller promises room.
+        unsafe { self.entries.get_unchecked_mut(self.len).write(entry) };
+        self.len += 1;
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<u64> {
+        self.len = self.len.checked_sub(1)?;
+        // SAFETY: all entries below the old length were written by `push`.
+        Some(unsafe { self.entries.get_unchecked(self.len).assume_init_read() })
+    }
+
+    /// Sort the top `count` entries, nearest on top.
+    #[inline(always)]
+    fn sort_top(&mut self, count: usize) {
+        let base = self.len - count;
+        for i in base + 1..self.len {
+            // SAFETY: indices run over entries that `push` wrote.
+            unsafe {
+                let entry = self.entries.get_unchecked(i).assume_init_read();
+                let mut hole = i;
+                while hole > base && self.entries.get_unchecked(hole - 1).assume_init_read() < entry {
+                    *self.entries.get_unchecked_mut(hole) = *self.entries.get_unchecked(hole - 1);
+                    hole -= 1;
+                }
+                self.entries.get_unchecked_mut(hole).write(entry);
+            }
+        }
+    }
+}
+
+/// Stack entries that a tree of this depth may need.
+pub(super) fn stack_len(depth: usize) -> usize {
+    depth * NODE_WIDTH + 1
+}
+
+#[inline(always)]
+fn pack(distance: f32, child: Child) -> u64 {
+    u64::from(distance.to_bits()) << 32 | u64::from(child.0)
+}
+
+/// The first triangle with `0 < t < ray.t_max`; of several at the same distance, the one of lowest index.
+///
+/// # Safety
+/// The CPU must support `N` and `L`; the stack must hold [`stack_len`] entries.
+#[inline(always)]
+pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
+    tree: &Tree,
+    extent: f32,
+    ray: &Ray,
+    stack: &mut [MaybeUninit<u64>],
+) -> Option<TriangleHit> {
+    // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
+    unsafe {
+        let slabs = SlabRay::<N>::new(ray, extent);
+        let shear = Shear::new(ray);
+        let triangles = LeafRay::<L>::new(shear);
+        let mut stack = Stack { entries: stack, len: 0 };
+        let mut best = ray.t_max;
+        let mut found: Option<(u32, usize, usize)> = None;
+        let mut node_reach = N::splat(best);
+        let mut current = Child::node(0);
+        'visit: loop {
+            while !current.is_leaf() {
+                let node = tree.nodes.get_unchecked(current.index());
+                let (mut mask, entry) = slabs.test(node, node_reach);
+                if mask == 0 {
+                    match next(&mut stack, best) {
+                        Some(child) => current = child,
+                        None => break 'visit,
+                    }
+                    continue;
+                }
+                let first = mask.trailing_zeros() as usize;
+                mask &= mask - 1;
+                if mask == 0 {
+                    current = *node.children.get_unchecked(first);
+                    continue;
+                }
+                let distances = entry.to_array();
+                let at =
+                    |slot: usize| pack(*distances.get_unchecked(slot), *node.children.get_unchecked(slot));
+                let a = at(first);
+                let b = at(mask.trailing_zeros() as usize);
+                mask &= mask - 1;
+                if mask == 0 {
+                    stack.push(a.max(b));
+                    current = Child(a.min(b) as u32);
+                    continue;
+                }
+                stack.push(a);
+                stack.push(b);
+                let mut count = 2;
+                while mask != 0 {
+                    stack.push(at(mask.trailing_zeros() as usize));
+                    mask &= mask - 1;
+                    count += 1;
+                }
+                stack.sort_top(count);
+                current = Child(stack.pop().unwrap_unchecked() as u32);
+            }
+            let leaf = tree.leaves.get_unchecked(current.index());
+            let (mut hits, t) = triangles.test(leaf, L::splat(best));
+            if hits != 0 {
+                let distances = t.to_array();
+                while hits != 0 {
+                    let lane = hits.trailing_zeros() as usize;
+                    hits &= hits - 1;
+                    let t = *distances.get_unchecked(lane);
+                    let triangle = *leaf.triangles.get_unchecked(lane);
+                    if t < best || (t == best && found.is_some_and(|(other, _, _)| triangle < other)) {
+                        best = t;
+                        found = Some((triangle, current.index(), lane));
+                    }
+                }
+                node_reach = N::splat(best);
+            }
+            match next(&mut stack, best) {
+                Some(child) => current = child,
+                None => break,
+            }
+        }
+        let (triangle, leaf, lane) = found?;
+        let [_, u, v] = shear.meet(tree.leaves[leaf].vertices(lane))?;
+        Some(TriangleHit { t: best, u, v, triangle })
+    }
+}
+
+/// The next box not farther than the best hit.
+#[inline(always)]
+fn next(stack: &mut Stack, best: f32) -> Option<Child> {
+    loop {
+        let entry = stack.pop()?;
+        if f32::from_bits((entry >> 32) as u32) <= best {
+            return Some(Child(entry as u32));
+        }
+    }
+}
+
+/// Whether any triangle lies at `0 < t < ray.t_max`. The order of visits does not matter, so nothing is sorted.
+///
+/// # Safety
+/// The CPU must support `N` and `L`; the stack must hold [`stack_len`] entries.
+#[inline(always)]
+pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
+    tree: &Tree,
+    extent: f32,
+    ray: &Ray,
+    stack: &mut [MaybeUninit<u64>],
+) -> bool {
+    // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
+    unsafe {
+        let slabs = SlabRay::<N>::new(ray, extent);
+        let triangles = LeafRay::<L>::new(Shear::new(ray));
+        let mut stack = Stack { entries: stack, len: 0 };
+        let reach = N::splat(ray.t_max);
+        let leaf_reach = L::splat(ray.t_max);
+        let mut current = Child::node(0);
+        loop {
+            if current.is_leaf() {
+                let (hits, t) = triangles.test(tree.leaves.get_unchecked(current.index()), leaf_reach);
+                if hits & leaf_reach.gt(t) != 0 {
+                    return true;
+                }
+            } else {
+                let node = tree.nodes.get_unchecked(current.index());
+                let (mut mask, _) = slabs.test(node, reach);
+                while mask != 0 {
+                    stack.push(u64::from(node.children.get_unchecked(mask.trailing_zeros() as usize).0));
+                    mask &= mask - 1;
+                }
+            }
+            match stack.pop() {
+                Some(entry) => current = Child(entry as u32),
+                None => return false,
+            }
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Shading about another normal than the surface's: what bump maps and normal maps share.
+//!
+//! Two documented features of Mitsuba 3 (3.7.1 and later) are on by default: `flip_invalid_normals` mirrors a normal that
+//! faces away from the viewer (Schüßler et al. 2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path
+//! Tracing"), and `use_shadowing_function` softens the shadow's edge (Conty Estevez, Lecocq & Stein 2019, "A
+//! Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem", Ray Tracing Gems). Not a member by itself.
+
+use std::sync::Arc;
+
+use crate::Result;
+use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
+use crate::geometry::{Frame, Surface, Vec3};
+use crate::scene::build::Builder;
+use crate::scene::properties::Properties;
+
+/// A scattering function about a perturbed normal.
+pub(crate) struct Perturbed {
+    pub nested: Arc<dyn Bsdf>,
+    flip: bool,
+    shadowing: bool,
+}
+
+impl Perturbed {
+    /// Read the nested BSDF, `flip_invalid_normals` and `use_shadowing_function`.
+    pub(crate) fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Self> {
+        Ok(Self {
+            flip: properties.boolean("flip_invalid_normals", true)?,
+            shadowing: properties.boolean("use_shadowing_function", true)?,
+            nested: builder.only_bsdf(properties)?,
+        })
+    }
+
+    /// The perturbed frame in local coordinates and the surface as the nested BSDF sees it.
+    #[inline]
+    fn frame(&self, surface: &Surface, n: Vec3, wo: Vec3) -> (Frame, Surface) {
+        let n = if self.flip && n.dot(wo) * wo.z <= 0.0 { Vec3::new(-n.x, -n.y, n.z) } else { n };
+        let local = Frame::from_normal_and_tangent(n, surface.shading.to_local(surface.dp_du));
+        let world = |v: Vec3| surface.shading.to_world(v);
+        let shading = Frame { s: world(local.s), t: world(local.t), n: world(local.n) };
+        (local, Surface { shading, ..*surface })
+    }
+
+    /// G1 of a GGX surface with α² = tan²θ / 8, where θ is between the two normals.
+    #[inline]
+    fn shadow(&self, n: Vec3, wi: Vec3) -> f32 {
+        if !self.shadowing {
+            return 1.0;
+        }
+        let tangent_squared = |v: Vec3| (v.x * v.x + v.y * v.y) / (v.z * v.z);
+        2.0 / (1.0 + (1.0 + 0.125 * tangent_squared(n) * tangent_squared(wi)).sqrt())
+    }
+
+    /// Sample about the local unit normal `n`.
+    #[inline]
+    pub(crate) fn sample(
+        &self,
+        surface: &Surface,
+        (n, wo): (Vec3, Vec3),
+        lobe: f32,
+        u: [f32; 2],
+    ) -> Option<BsdfSample> {
+        let (frame, perturbed) = self.frame(surface, n, wo);
+        let sample = self.nested.sample(&perturbed, frame.to_local(wo), lobe, u)?;
+        let wi = frame.to_world(sample.wi);
+        if wi.z * sample.wi.z <= 0.0 {
+            return None;
+        }
+        Some(BsdfSample { wi, weight: sample.weight * self.shadow(frame.n, wi), ..sample })
+    }
+
+    /// Evaluate about the local unit normal `n`.
+    #[inline]
+    pub(crate) fn evaluate(&self, surface: &Surface, n: Vec3, wo: Vec3, wi: Vec3) -> BsdfValue {
+        let (frame, perturbed) = self.frame(surface, n, wo);
+        let bent = frame.to_local(wi);
+        if wi.z * bent.z <= 0.0 {
+            return BsdfValue::ZERO;
+        }
+        let result = self.nested.evaluate(&perturbed, frame.to_local(wo), bent);
+        BsdfValue { value: result.value * self.shadow(frame.n, wi), ..result }
+    }
+}

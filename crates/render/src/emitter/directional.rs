@@ -1,0 +1,58 @@
+//! `directional`: parallel light from infinitely far away.
+
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::Result;
+use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::geometry::{Rgb, Vec3, luminance};
+use crate::scene::build::{Builder, Entry};
+use crate::scene::properties::Properties;
+
+pub(crate) const ENTRY: Entry<dyn Emitter> = Entry { name: "directional", build };
+
+struct Directional {
+    /// Where the light travels to.
+    direction: Vec3,
+    irradiance: Rgb,
+}
+
+fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter>> {
+    let to_world = crate::shape::to_world(properties)?;
+    let direction = match properties.optional_vector("direction")? {
+        Some(_) if properties.has("to_world") => {
+            return Err(properties.error("direction and to_world exclude each other"));
+        }
+        Some(direction) => DVec3::from(direction),
+        None => to_world.matrix3 * DVec3::Z,
+    };
+    let direction = direction.try_normalize().ok_or_else(|| properties.error("direction must not vanish"))?;
+    let irradiance = properties.optional_rgb("irradiance")?.unwrap_or(Rgb::ONE);
+    Ok(Arc::new(Directional { direction: direction.as_vec3().into(), irradiance }))
+}
+
+impl Emitter for Directional {
+    fn sample(&self, _: Vec3, _: [f32; 2]) -> Option<LightSample> {
+        Some(LightSample {
+            direction: -self.direction,
+            distance: f32::INFINITY,
+            radiance: self.irradiance,
+            density: 1.0,
+            delta: true,
+        })
+    }
+
+    fn radiance(&self, _: &EmitterHit) -> Rgb {
+        Rgb::ZERO
+    }
+
+    fn density(&self, _: Vec3, _: &EmitterHit) -> f32 {
+        0.0
+    }
+
+    fn power(&self, scene: &SceneSphere) -> f32 {
+        luminance(self.irradiance) * PI * scene.radius * scene.radius
+    }
+}

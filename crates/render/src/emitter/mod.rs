@@ -1,0 +1,75 @@
+//! Sources of light: sample a direction towards them, evaluate and density always together.
+//!
+//! Plugin names, parameters and defaults are those of Mitsuba 3.
+
+use crate::geometry::{Rgb, Vec2, Vec3};
+use crate::scene::build::Entry;
+
+pub mod area;
+pub mod constant;
+pub mod directional;
+pub mod envmap;
+pub mod point;
+pub mod selection;
+pub mod spot;
+
+/// The sources of light that stand alone in a scene (`area` belongs to a shape).
+pub static ALL: &[Entry<dyn Emitter>] =
+    &[constant::ENTRY, directional::ENTRY, envmap::ENTRY, point::ENTRY, spot::ENTRY];
+
+/// Light towards a receiver, from one sampled direction.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    /// Unit direction from the receiver to the light.
+    pub direction: Vec3,
+    /// How far; infinite for environments.
+    pub distance: f32,
+    /// Radiance arriving, were there no obstacle; for delta lights with their falloff.
+    pub radiance: Rgb,
+    /// Solid-angle density of the direction; 1 for delta lights.
+    pub density: f32,
+    /// Whether the light is a delta function of direction or position.
+    pub delta: bool,
+}
+
+/// Where a ray met a light.
+#[derive(Clone, Copy, Debug)]
+pub struct EmitterHit {
+    /// The point on the light; meaningless for environments.
+    pub position: Vec3,
+    /// The unit normal that emission is tied to; meaningless for environments.
+    pub normal: Vec3,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Unit direction from the receiver to the light.
+    pub direction: Vec3,
+}
+
+/// A sphere around the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct SceneSphere {
+    /// Its center.
+    pub center: Vec3,
+    /// Its radius; positive.
+    pub radius: f32,
+}
+
+/// A source of light.
+pub trait Emitter: Send + Sync {
+    /// Sample a direction from the receiver `from`.
+    fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightSample>;
+
+    /// Radiance leaving the hit against `hit.direction`. Delta lights are never hit.
+    fn radiance(&self, hit: &EmitterHit) -> Rgb;
+
+    /// Solid-angle density of [`Emitter::sample`] at the hit.
+    fn density(&self, from: Vec3, hit: &EmitterHit) -> f32;
+
+    /// Emitted power, roughly (luminance): how often the light is chosen.
+    fn power(&self, scene: &SceneSphere) -> f32;
+
+    /// Whether rays that leave the scene meet this light.
+    fn is_environment(&self) -> bool {
+        false
+    }
+}

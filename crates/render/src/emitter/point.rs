@@ -1,0 +1,59 @@
+//! `point`: the same intensity in all directions, from one point.
+
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::Result;
+use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::geometry::{Rgb, Vec3, luminance};
+use crate::scene::build::{Builder, Entry};
+use crate::scene::properties::Properties;
+
+pub(crate) const ENTRY: Entry<dyn Emitter> = Entry { name: "point", build };
+
+struct Point {
+    position: Vec3,
+    intensity: Rgb,
+}
+
+fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter>> {
+    let to_world = crate::shape::to_world(properties)?;
+    let position = match properties.optional_vector("position")? {
+        Some(_) if properties.has("to_world") => {
+            return Err(properties.error("position and to_world exclude each other"));
+        }
+        Some(position) => DVec3::from(position),
+        None => to_world.translation,
+    };
+    let intensity = properties.optional_rgb("intensity")?.unwrap_or(Rgb::ONE);
+    Ok(Arc::new(Point { position: position.as_vec3().into(), intensity }))
+}
+
+impl Emitter for Point {
+    fn sample(&self, from: Vec3, _: [f32; 2]) -> Option<LightSample> {
+        let to_light = self.position - from;
+        let distance_squared = to_light.length_squared();
+        let distance = distance_squared.sqrt();
+        (distance > 0.0).then(|| LightSample {
+            direction: to_light / distance,
+            distance,
+            radiance: self.intensity / distance_squared,
+            density: 1.0,
+            delta: true,
+        })
+    }
+
+    fn radiance(&self, _: &EmitterHit) -> Rgb {
+        Rgb::ZERO
+    }
+
+    fn density(&self, _: Vec3, _: &EmitterHit) -> f32 {
+        0.0
+    }
+
+    fn power(&self, _: &SceneSphere) -> f32 {
+        luminance(self.intensity) * 4.0 * PI
+    }
+}

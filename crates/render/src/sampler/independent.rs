@@ -1,0 +1,32 @@
+//! `independent`: plain Monte Carlo, by hashing a counter. The yardstick; choose it where nothing else may be assumed.
+
+use evenlight_points::Seed;
+
+use crate::sampler::{BLOCK, Entry, unit_f32};
+
+pub(crate) const ENTRY: Entry = Entry {
+    name: "independent",
+    cite: "Metropolis & Ulam 1949, The Monte Carlo Method, JASA 44",
+    base: None,
+    fill,
+};
+
+fn fill(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
+    let start = key.split(TAG, u64::from(index) << 32 | u64::from(block)).bits64();
+    for (pair, numbers) in (1..).zip(out.as_chunks_mut::<2>().0) {
+        let bits = mix(start.wrapping_add(GOLDEN.wrapping_mul(pair)));
+        *numbers = [unit_f32((bits >> 32) as u32), unit_f32(bits as u32)];
+    }
+}
+
+const TAG: u64 = 16;
+
+/// Increment and finalizer of `SplitMix64` (Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators").
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+#[inline]
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

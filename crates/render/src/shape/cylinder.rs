@@ -1,0 +1,119 @@
+//! `cylinder`: an open cylinder from `p0` to `p1`, facing outwards.
+
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::Result;
+use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3};
+use crate::scene::build::Builder;
+use crate::scene::properties::Properties;
+use crate::shape::{
+    Analytic, Entry, Geometry, LightGeometry, LightPoint, area_to_solid_angle, to_world, uniform_scale,
+};
+
+pub(crate) const ENTRY: Entry = Entry { name: "cylinder", build };
+
+struct Cylinder {
+    base: Vec3,
+    /// `n` is the axis; `s` is where v's angle starts.
+    frame: Frame,
+    length: f32,
+    radius: f32,
+    side: f32,
+}
+
+fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
+    let to_world = to_world(properties)?;
+    let scale = uniform_scale(properties, &to_world)?;
+    let p0 = DVec3::from(properties.optional_vector("p0")?.unwrap_or_default());
+    let p1 = DVec3::from(properties.optional_vector("p1")?.unwrap_or([0.0, 0.0, 1.0]));
+    let radius = f64::from(properties.float("radius", 1.0)?) * scale;
+    let (p0, p1) = (to_world.transform_point3(p0), to_world.transform_point3(p1));
+    let length = p0.distance(p1);
+    if !(radius > 0.0 && length > 0.0 && (radius * length).is_finite()) {
+        return Err(properties.error("radius and length must be positive"));
+    }
+    let side = if properties.boolean("flip_normals", false)? { -1.0 } else { 1.0 };
+    Ok(Geometry::Analytic(Arc::new(Cylinder {
+        base: p0.as_vec3().into(),
+        frame: Frame::from_normal(((p1 - p0) / length).as_vec3().into()),
+        length: length as f32,
+        radius: radius as f32,
+        side,
+    })))
+}
+
+impl Cylinder {
+    fn local(&self, position: Vec3) -> Vec3 {
+        self.frame.to_local(position - self.base)
+    }
+}
+
+impl Analytic for Cylinder {
+    fn bounds(&self) -> [Vec3; 2] {
+        let axis = self.frame.n;
+        let squared = (Vec3::ONE - axis * axis).max(Vec3::ZERO);
+        let reach = Vec3::new(squared.x.sqrt(), squared.y.sqrt(), squared.z.sqrt()) * self.radius;
+        let top = self.base + axis * self.length;
+        [self.base.min(top) - reach, self.base.max(top) + reach]
+    }
+
+    fn intersect(&self, ray: &Ray) -> Option<f32> {
+        let origin = self.local(ray.origin).as_dvec3();
+        let direction = self.frame.to_local(ray.direction).as_dvec3();
+        let a = direction.x * direction.x + direction.y * direction.y;
+        let half_b = origin.x * direction.x + origin.y * direction.y;
+        let radius = f64::from(self.radius);
+        let closest = origin - direction * (half_b / a);
+        let discriminant = radius * radius - closest.x * closest.x - closest.y * closest.y;
+        if a == 0.0 || discriminant < 0.0 {
+            return None;
+        }
+        let root = (discriminant / a).sqrt();
+        let length = f64::from(self.length);
+        let within = |t: f64| (0.0..=length).contains(&(origin.z + t * direction.z));
+        [-half_b / a - root, -half_b / a + root]
+            .into_iter()
+            .find(|&t| t > 0.0 && t < f64::from(ray.t_max) && within(t))
+            .map(|t| t as f32)
+    }
+
+    fn surface(&self, position: Vec3) -> Surface {
+        let local = self.local(position);
+        let ring = (local.x * local.x + local.y * local.y).sqrt();
+        let outward = self.frame.to_world(Vec3::new(local.x / ring, local.y / ring, 0.0));
+        let phi = local.y.atan2(local.x);
+        let phi = if phi < 0.0 { phi + 2.0 * PI } else { phi };
+        let normal = outward * self.side;
+        let dp_du = self.frame.n.cross(outward) * (2.0 * PI * self.radius);
+        Surface {
+            position: self.base + self.frame.n * local.z + outward * self.radius,
+            geometric_normal: normal,
+            shading: Frame::from_normal_and_tangent(normal, dp_du),
+            uv: Vec2::new(phi / (2.0 * PI), local.z / self.length),
+            dp_du,
+            dp_dv: self.frame.n * self.length,
+        }
+    }
+}
+
+impl LightGeometry for Cylinder {
+    fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
+        let (sin_phi, cos_phi) = (2.0 * PI * u[0]).sin_cos();
+        let outward = self.frame.to_world(Vec3::new(cos_phi, sin_phi, 0.0));
+        let position = self.base + outward * self.radius + self.frame.n * (u[1] * self.length);
+        let normal = outward * self.side;
+        let density = self.density(from, position, normal);
+        (density > 0.0).then_some(LightPoint { position, normal, uv: Vec2::from(u), density })
+    }
+
+    fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
+        area_to_solid_angle(self.area(), from, position, normal)
+    }
+
+    fn area(&self) -> f32 {
+        2.0 * PI * self.radius * self.length
+    }
+}
