@@ -71,7 +71,7 @@ def mitsuba_renderer(task: Record) -> tuple[Render, str]:
         image = np.array(mi.render(scene, spp=task["spp"], seed=seed))[..., :3]
         return image.astype(np.float32), taken
 
-    return render, mi.__version__
+    return render, str(mi.__version__)
 
 
 def run_render(task: Record) -> Record:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import operator
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -189,6 +190,7 @@ def render(  # every argument is one setting; the settings are the interface
         "size": size,
         "mis": mis,
     }
+    _check_ranges(settings)
     result = _core.render(scene._core, settings, progress)
     about = {"scene": os.fspath(scene.path), "parameters": scene.parameters, "warnings": scene.warnings}
     metadata = settings | about | result["metadata"] | {"version": _core.__version__}
@@ -196,6 +198,29 @@ def render(  # every argument is one setting; the settings are the interface
     metadata["partial"] = partial
     layers = {name: result[name] for name in ("replicates", "albedo", "normal", "depth")}
     return Film(**layers, metadata=metadata, partial=partial)
+
+
+_RANGES = {
+    "spp": (1, 2**32 - 1),
+    "replicates": (1, 2**32 - 1),
+    "seed": (0, 2**64 - 1),
+    "threads": (1, 4096),
+    "max_depth": (-1, 2**31 - 1),
+    "width": (1, 2**31 - 1),
+    "height": (1, 2**31 - 1),
+}
+
+
+def _check_ranges(settings: dict[str, Any]) -> None:
+    """Refuse numbers that the core's integers cannot hold, in the words of the settings."""
+    numbers = dict(settings)
+    if settings["size"] is not None:
+        numbers["width"], numbers["height"] = settings["size"]
+    for name, (least, most) in _RANGES.items():
+        number = numbers.get(name)
+        if number is not None and not least <= operator.index(number) <= most:
+            where = f"size: {name}" if name in ("width", "height") else name
+            raise ValueError(f"{where} is {number}; {least} to {most} is allowed")
 
 
 def _as_written(value: object) -> str:
