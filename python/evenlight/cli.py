@@ -100,18 +100,29 @@ class _Bar:
     """A progress bar with the time left, samples per second and the current mean relative error."""
 
     def __init__(self, quiet: bool) -> None:
-        self._bar: tqdm[NoReturn] = tqdm(unit="sample", unit_scale=True, dynamic_ncols=True, leave=False, disable=quiet)
+        self._quiet = quiet
+        self._bar: tqdm[NoReturn] | None = None
 
     def __enter__(self) -> _Bar:
         return self
 
     def __exit__(self, *exception: object) -> None:
-        self._bar.close()
+        if self._bar is not None:
+            self._bar.close()
 
     def show(self, state: dict[str, Any]) -> None:
-        """Draw what the renderer says: samples `done` and `total`, and the `relative_error` so far."""
-        self._bar.total = state["total"]
-        self._bar.set_postfix_str(f"error {state['relative_error']:.2%}", refresh=False)
+        """Draw what the renderer says: samples `done` and `total`, and the `relative_error` so far, if known."""
+        if self._bar is None:  # not before there is something to show, so that errors stand alone
+            self._bar = tqdm(
+                total=state["total"],
+                unit="sample",
+                unit_scale=True,
+                dynamic_ncols=True,
+                leave=False,
+                disable=self._quiet,
+            )
+        if state["relative_error"] is not None:
+            self._bar.set_postfix_str(f"error {state['relative_error']:.2%}", refresh=False)
         self._bar.update(state["done"] - self._bar.n)
 
 

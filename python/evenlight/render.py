@@ -146,7 +146,8 @@ def render(  # every argument is one setting; the settings are the interface
     mis : {"power", "balance"}
         The heuristic that weighs light samples against BSDF samples.
     progress : callable, optional
-        Called now and then with a dict: samples `done` and `total`, and the current mean `relative_error`.
+        Called now and then with a dict: samples `done` and `total`, and the current mean
+        `relative_error` (None as long as it is unknown).
     kernel : {"auto", "embree", "wide"}
         The ray kernel, if `scene` is a path; else `load_scene` has chosen it.
 
@@ -171,7 +172,7 @@ def render(  # every argument is one setting; the settings are the interface
     --------
     >>> import evenlight
     >>> film = evenlight.render("scenes/sky.xml", spp=16, size=(8, 8), seed=1)
-    >>> bool(abs(film.color[-1].mean() - 0.5) < 0.05)
+    >>> bool(abs(film.color[-1, :, 0].mean() - 0.5) < 0.05)
     True
     """
     if not isinstance(scene, Scene):
