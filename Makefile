@@ -9,6 +9,7 @@ BIN := $(VENV)/bin
 # One interpreter for every build of the extension, so that cargo and maturin do not rebuild behind each other's back.
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PIP_QUIET := 1
 
 RUST_SOURCES := $(shell find crates -type f -not -path '*/target/*') Cargo.toml Cargo.lock
 TOOLS := $(VENV)/.tools-installed
@@ -24,11 +25,11 @@ $(TOOLS): requirements/dev.txt
 	@test -n "$(PYTHON)" || { echo "evenlight needs Python >= 3.11: make PYTHON=/path/to/python3" >&2; exit 1; }
 	@command -v cargo >/dev/null || { echo "evenlight needs Rust: cargo is not on the PATH" >&2; exit 1; }
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --require-hashes -r requirements/dev.txt
+	$(BIN)/python -m pip install --require-hashes -r requirements/dev.txt
 	@touch $@
 
 $(PEERS): requirements/peers.txt $(TOOLS)
-	$(BIN)/python -m pip install --quiet --require-hashes -r requirements/peers.txt
+	$(BIN)/python -m pip install --require-hashes -r requirements/peers.txt
 	@touch $@
 
 $(BUILT): $(TOOLS) pyproject.toml $(RUST_SOURCES)

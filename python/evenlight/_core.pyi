@@ -1,11 +1,27 @@
-"""The compiled core; the public faces are the packages beside it."""
+"""The compiled core: private. The public faces are the modules beside it."""
 
-from typing import final
+from collections.abc import Callable
+from typing import Any, final
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
-__all__ = ["PointSet", "__version__", "available_sequences", "replicate_seed"]
+__all__ = [
+    "PointSet",
+    "Scene",
+    "__version__",
+    "available_sequences",
+    "check_writable",
+    "filters",
+    "integrators",
+    "load_scene",
+    "render",
+    "replicate_seed",
+    "samplers",
+    "write_exr",
+    "write_png",
+]
+
 __version__: str
 
 # --- points ---
@@ -16,9 +32,38 @@ class PointSet:
     @property
     def dims(self) -> int: ...
     def coord(self, index: int, dim: int) -> float: ...
-    def fill(self, start: int, stop: int, out: npt.NDArray[np.float64] | npt.NDArray[np.float32]) -> None: ...
+    def fill(self, start: int, stop: int, out: NDArray[np.float64] | NDArray[np.float32]) -> None: ...
 
 def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], int]]: ...
 
-# --- end of points ---
+# --- render ---
+
+@final
+class Scene:
+    @property
+    def warnings(self) -> list[str]: ...
+    def info(self) -> dict[str, Any]: ...
+
+def load_scene(
+    path: str,
+    parameters: dict[str, str],
+    lenient: bool,
+    allow_outside: bool,
+    embree_library: str | None,
+    kernel: str,
+) -> Scene: ...
+def render(
+    scene: Scene, settings: dict[str, Any], progress: Callable[[dict[str, Any]], None] | None
+) -> dict[str, Any]: ...
+def integrators() -> list[str]: ...
+def samplers() -> list[str]: ...
+def filters() -> list[str]: ...
+
+# --- output ---
+
+def check_writable(path: str) -> None: ...
+def write_exr(
+    path: str, layers: list[tuple[str, list[str], NDArray[np.float32]]], metadata: dict[str, str]
+) -> None: ...
+def write_png(path: str, image: NDArray[np.float32], exposure: float, metadata: dict[str, str]) -> None: ...

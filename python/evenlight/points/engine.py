@@ -45,9 +45,7 @@ class Engine(qmc.QMCEngine):
     sequence: ClassVar[str]
     """The name in the registry, the same as in Rust, on the command line and in reports."""
 
-    def __init__(
-        self, d: SupportsIndex, *, scramble: str, seed: SeedLike = None, rng: SeedLike = None
-    ) -> None:
+    def __init__(self, d: SupportsIndex, *, scramble: str, seed: SeedLike = None, rng: SeedLike = None) -> None:
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names for the same argument; give one of them")
         dims = _integer("d", d, 1)

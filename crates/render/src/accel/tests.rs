@@ -200,7 +200,10 @@ fn cubes_are_watertight() {
 fn scale_and_distance_do_not_leak() {
     for (scale, shift) in [(1e-6, 0.0), (1e6, 0.0), (1.0, 1000.0), (1e-3, 10.0), (1e3, 1e5)] {
         let mesh = Mesh::icosphere(2).scaled(scale, shift);
-        assert_watertight(&mesh, &[Vec3::splat(shift), Vec3::splat(shift) + Vec3::new(0.2, -0.1, 0.3) * scale]);
+        assert_watertight(
+            &mesh,
+            &[Vec3::splat(shift), Vec3::splat(shift) + Vec3::new(0.2, -0.1, 0.3) * scale],
+        );
     }
 }
 
@@ -220,7 +223,9 @@ fn axis_parallel_rays_do_not_leak() {
                         direction[axis] = sign;
                         let ray = ray(Vec3::from_array(origin), Vec3::from_array(direction));
                         // Rays within a face start on it; the others see the far face at distance 1.
-                        let hit = kernel.closest(&ray).unwrap_or_else(|| panic!("{} leaks: {ray:?}", kernel.name()));
+                        let hit = kernel
+                            .closest(&ray)
+                            .unwrap_or_else(|| panic!("{} leaks: {ray:?}", kernel.name()));
                         assert!((hit.t - 1.0).abs() < 1e-6, "{}: {hit:?} of {ray:?}", kernel.name());
                     }
                 }

@@ -2,11 +2,11 @@
 
 #![allow(dead_code, reason = "each test takes what it needs")]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use evenlight_render::geometry::{Frame, Surface, Vec2, Vec3};
 use evenlight_render::scene::build::Builder;
+use evenlight_render::scene::folder::Folder;
 use evenlight_render::scene::node::{Child, Kind, Node, Parameter, Value};
 use evenlight_render::{Location, Result, bsdf::Bsdf, texture::Texture};
 use glam::{DMat4, DVec3};
@@ -45,7 +45,7 @@ fn node(element: Element<'_, '_>) -> Node {
                 location: Location::default(),
             })
             .collect(),
-        folder: Arc::new(PathBuf::from(DATA)),
+        folder: Arc::new(Folder::new(DATA, false)),
     }
 }
 

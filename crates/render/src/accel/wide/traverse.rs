@@ -154,7 +154,11 @@ pub(super) unsafe fn closest<L: Lanes>(
                 None => break,
             }
         }
-        (determinant != 0.0).then(|| TriangleHit { u: found.u / determinant, v: found.v / determinant, ..found })
+        (determinant != 0.0).then(|| TriangleHit {
+            u: found.u / determinant,
+            v: found.v / determinant,
+            ..found
+        })
     }
 }
 

@@ -1,0 +1,1 @@
+"""Measurements: `make validate` and `make bench`."""

@@ -1,0 +1,15 @@
+"""evenlight: a sampling engine for image synthesis.
+
+Examples
+--------
+>>> import evenlight
+>>> film = evenlight.render("scenes/sky.xml", spp=16, size=(8, 8))
+>>> film.color.shape, film.standard_error.shape
+((8, 8, 3), (8, 8, 3))
+"""
+
+from evenlight import points
+from evenlight._core import __version__
+from evenlight.render import Film, Scene, load_scene, render
+
+__all__ = ["Film", "Scene", "__version__", "load_scene", "points", "render"]

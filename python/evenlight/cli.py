@@ -1,0 +1,238 @@
+"""The command line: `evenlight render | points | info`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from tqdm import tqdm
+
+import evenlight
+from evenlight import _core, points, tables
+from evenlight.film import Film, check_output
+
+__all__ = ["main"]
+
+EXIT_ERROR = 2
+EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells have it
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code: 0, 2 after an error, 130 after Ctrl-C."""
+    options = _parser().parse_args(arguments)
+    try:
+        return int(options.run(options))
+    except KeyboardInterrupt:
+        print("evenlight: interrupted", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:  # the reader of `-o -` has seen enough
+        sys.stderr.close()
+        return EXIT_ERROR
+    except (ValueError, TypeError, OSError, MemoryError) as error:
+        print(f"evenlight: error: {_one_line(error)}", file=sys.stderr)
+        return EXIT_ERROR
+
+
+def _render(options: argparse.Namespace) -> int:
+    for path in options.output:
+        check_output(path)
+    scene = _load(options)
+    with _Bar(options.quiet) as bar:
+        film = evenlight.render(
+            scene,
+            integrator=options.integrator,
+            sampler=options.sampler,
+            spp=options.spp,
+            replicates=options.replicates,
+            seed=options.seed,
+            threads=options.threads,
+            max_depth=options.max_depth,
+            filter=options.filter,
+            size=options.size,
+            mis=options.mis,
+            progress=bar.show,
+        )
+    for path in options.output:
+        film.write(path, exposure=options.exposure)
+    if not options.quiet:
+        _say_what_was_written(film, options.output)
+    return EXIT_INTERRUPTED if film.partial else 0
+
+
+def _say_what_was_written(film: Film, paths: Sequence[str]) -> None:
+    height, width, _ = film.color.shape
+    seconds = film.metadata.get("seconds", float("nan"))
+    state = "interrupted: partial image" if film.partial else "done"
+    error = f"mean relative error {film.relative_error:.2%}"
+    print(f"{state}, {width}x{height}, {seconds:.1f} s, {error}: {', '.join(paths)}", file=sys.stderr)
+
+
+def _info(options: argparse.Namespace) -> int:
+    scene = _load(options)
+    print(json.dumps(scene.info(), indent=2, ensure_ascii=False, default=str))
+    return 0
+
+
+def _points(options: argparse.Namespace) -> int:
+    engine = points.build(options.sequence, options.dims, scramble=options.scramble, seed=options.seed)
+    tables.write(options.output, engine, range(options.start, options.start + options.count), options.dims)
+    return 0
+
+
+def _load(options: argparse.Namespace) -> evenlight.Scene:
+    scene = evenlight.load_scene(
+        options.scene,
+        lenient=options.lenient,
+        allow_outside=options.allow_outside,
+        kernel=options.kernel,
+        **dict(options.define),
+    )
+    for warning in scene.warnings:
+        print(f"evenlight: warning: {warning}", file=sys.stderr)
+    return scene
+
+
+class _Bar:
+    """A progress bar with the time left, samples per second and the current mean relative error."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._quiet = quiet
+        self._bar: tqdm[NoReturn] | None = None
+
+    def __enter__(self) -> _Bar:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+    def show(self, state: dict[str, Any]) -> None:
+        """Draw what the renderer says: samples `done` and `total`, and the `relative_error` so far, if known."""
+        if self._bar is None:  # not before there is something to show, so that errors stand alone
+            self._bar = tqdm(
+                total=state["total"],
+                unit="sample",
+                unit_scale=True,
+                dynamic_ncols=True,
+                leave=False,
+                disable=self._quiet,
+            )
+        if state["relative_error"] is not None:
+            self._bar.set_postfix_str(f"error {state['relative_error']:.2%}", refresh=False)
+        self._bar.update(state["done"] - self._bar.n)
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(EXIT_ERROR, f"evenlight: error: {message} (see {self.prog} --help)\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="evenlight", description="Images whose every pixel carries an honest standard error.")
+    parser.add_argument("--version", action="version", version=f"evenlight {evenlight.__version__}")
+    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND", parser_class=_Parser)
+    _add_render(commands.add_parser("render", help="render a scene", description="Render a Mitsuba 3 scene."))
+    _add_points(commands.add_parser("points", help="write points", description="Write (randomized) points."))
+    info = commands.add_parser("info", help="say what a scene contains", description="Say what a scene contains.")
+    _add_scene(info)
+    info.set_defaults(run=_info)
+    return parser
+
+
+def _add_render(parser: argparse.ArgumentParser) -> None:
+    _add_scene(parser)
+    add = parser.add_argument
+    add(
+        "-o",
+        "--output",
+        action="append",
+        required=True,
+        metavar="FILE",
+        help=".exr, .png or .npz; repeatable",
+    )
+    add(
+        "--integrator",
+        choices=_core.integrators(),
+        default="path",
+        help="how light paths are made (%(default)s)",
+    )
+    add("--sampler", choices=_core.samplers(), default="sobol", help="the points behind them (%(default)s)")
+    add("--spp", type=int, default=64, help="samples per pixel over all replicates (%(default)s)")
+    add("--replicates", type=int, default=4, help="independent randomizations, for the error (%(default)s)")
+    add("--seed", type=int, default=0, help="same seed, same bits (%(default)s)")
+    add("--threads", type=int, help="worker threads (all cores)")
+    add("--max-depth", type=int, help="longest path in segments; -1: no limit (as the scene says)")
+    add("--size", type=_size, metavar="WxH", help="pixels (as the scene says)")
+    add("--filter", choices=_core.filters(), help="pixel filter (as the scene says)")
+    add("--mis", choices=["power", "balance"], default="power", help="weighting heuristic (%(default)s)")
+    add("--exposure", type=float, default=0.0, help="stops by which a PNG is brightened (%(default)s)")
+    add("--quiet", action="store_true", help="no progress bar, no summary")
+    parser.set_defaults(run=_render)
+
+
+def _add_scene(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("scene", metavar="SCENE", help="a Mitsuba 3 XML file")
+    add(
+        "-D",
+        "--define",
+        action="append",
+        type=_definition,
+        default=[],
+        metavar="NAME=VALUE",
+        help="$NAME in it",
+    )
+    add("--lenient", action="store_true", help="unknown plugins and parameters are warnings")
+    add("--allow-outside", action="store_true", help="allow files outside the scene's folder")
+    add(
+        "--kernel",
+        choices=["auto", "embree", "wide"],
+        default="auto",
+        help="what intersects rays (%(default)s)",
+    )
+
+
+def _add_points(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    names = [sequence.name for sequence in points.available()]
+    add("sequence", choices=names, metavar="SEQUENCE", help=", ".join(names))
+    add("--dims", type=int, default=2, help="dimensions (%(default)s)")
+    add("--count", type=_natural, default=1024, help="rows (%(default)s)")
+    add("--start", type=_natural, default=0, help="index of the first row (%(default)s)")
+    add("--scramble", help="how to randomize (the sequence's own default)")
+    add("--seed", type=int, default=0, help="same seed, same bits (%(default)s)")
+    add("-o", "--output", default="-", metavar="FILE", help=".npy, .csv, or - for CSV on standard output")
+    parser.set_defaults(run=_points)
+
+
+def _natural(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"'{text}' is negative")
+    return number
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, cross, height = text.lower().partition("x")
+    if not (cross and width.isdecimal() and height.isdecimal() and int(width) and int(height)):
+        raise argparse.ArgumentTypeError(f"'{text}' is not WIDTHxHEIGHT, such as 640x360")
+    return int(width), int(height)
+
+
+def _definition(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")
+    return name, value
+
+
+def _one_line(error: BaseException) -> str:
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        return f"{Path(str(error.filename))}: {error.strerror}"
+    return " ".join(str(error).split()) or type(error).__name__
