@@ -7,6 +7,7 @@ use std::f32::consts::PI;
 use std::sync::Arc;
 
 use crate::Result;
+use crate::emitter::inversion::Inversion;
 use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
 use crate::geometry::{Mat3A, Rgb, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
@@ -20,9 +21,9 @@ struct Envmap {
     scale: f32,
     to_world: Mat3A,
     to_local: Mat3A,
-    /// Cumulative cell weights of each row, then of the rows; the last entry of each is its total.
-    conditional: Vec<f32>,
-    marginal: Vec<f32>,
+    /// Cell weights of each row, and the weights of the rows.
+    rows: Vec<Inversion>,
+    marginal: Inversion,
     mean_luminance: f32,
 }
 
@@ -41,26 +42,21 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn E
 
 impl Envmap {
     fn new(image: Arc<Image>, scale: f32, to_world: Mat3A) -> Self {
-        let rows = image.height - 1;
-        let mut conditional = Vec::with_capacity(rows * image.width);
-        let mut marginal = Vec::with_capacity(rows);
-        let (mut total, mut weighted_sine) = (0.0_f64, 0.0_f64);
         let light =
             |x: usize, y: usize| luminance(Rgb::from(image.pixels[y * image.width + x % image.width]));
-        for y in 0..rows {
-            let sine = (PI * (y as f32 + 0.5) / rows as f32).sin();
-            let mut row = 0.0_f64;
-            for x in 0..image.width {
-                let corners = light(x, y) + light(x + 1, y) + light(x, y + 1) + light(x + 1, y + 1);
-                row += f64::from(0.25 * corners * sine);
-                conditional.push(row as f32);
-            }
-            total += row;
-            weighted_sine += f64::from(sine) * image.width as f64;
-            marginal.push(total as f32);
-        }
-        let mean_luminance = scale * (total / weighted_sine) as f32;
-        Self { image, scale, to_world, to_local: to_world.transpose(), conditional, marginal, mean_luminance }
+        let mut sines = 0.0;
+        let rows: Vec<Inversion> = (0..image.height - 1)
+            .map(|y| {
+                let sine = (PI * (y as f32 + 0.5) / (image.height - 1) as f32).sin();
+                sines += f64::from(sine);
+                Inversion::new((0..image.width).map(|x| {
+                    0.25 * sine * (light(x, y) + light(x + 1, y) + light(x, y + 1) + light(x + 1, y + 1))
+                }))
+            })
+            .collect();
+        let marginal = Inversion::new(rows.iter().map(Inversion::total));
+        let mean_luminance = scale * (f64::from(marginal.total()) / (sines * image.width as f64)) as f32;
+        Self { scale, to_world, to_local: to_world.transpose(), rows, marginal, mean_luminance, image }
     }
 
     /// Cell and position within it of a world direction.
@@ -94,11 +90,8 @@ impl Envmap {
 
     /// Solid-angle density of a cell: its share of the weight over the solid angle that u, v spread over.
     fn cell_density(&self, cell: &Cell) -> f32 {
-        let (width, rows) = (self.image.width, self.marginal.len());
-        let row = &self.conditional[cell.row * width..][..width];
-        let below = if cell.column == 0 { 0.0 } else { row[cell.column - 1] };
-        let share = (row[cell.column] - below) / self.marginal[rows - 1];
-        let cells = (width * rows) as f32;
+        let share = self.rows[cell.row].weight(cell.column) / self.marginal.total();
+        let cells = (self.image.width * self.rows.len()) as f32;
         if cell.sine > 0.0 { share * cells / (2.0 * PI * PI * cell.sine) } else { 0.0 }
     }
 }
@@ -112,20 +105,11 @@ struct Cell {
     sine: f32,
 }
 
-/// Invert a cumulative sum: the chosen interval and where in it.
-fn invert(cumulative: &[f32], u: f32) -> (usize, f32) {
-    let target = u * cumulative[cumulative.len() - 1];
-    let chosen = cumulative.partition_point(|&sum| sum <= target).min(cumulative.len() - 1);
-    let below = if chosen == 0 { 0.0 } else { cumulative[chosen - 1] };
-    let width = cumulative[chosen] - below;
-    (chosen, if width > 0.0 { ((target - below) / width).clamp(0.0, 0.999_999_9) } else { 0.5 })
-}
-
 impl Emitter for Envmap {
     fn sample(&self, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
         let width = self.image.width;
-        let (row, fraction_y) = invert(&self.marginal, u[1]);
-        let (column, fraction_x) = invert(&self.conditional[row * width..][..width], u[0]);
+        let (row, fraction_y) = self.marginal.invert(u[1]);
+        let (column, fraction_x) = self.rows[row].invert(u[0]);
         let theta = PI * (row as f32 + fraction_y) / (self.image.height - 1) as f32;
         let phi = 2.0 * PI * (column as f32 + fraction_x + 0.5) / width as f32;
         let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());

@@ -9,6 +9,7 @@ pub mod area;
 pub mod constant;
 pub mod directional;
 pub mod envmap;
+mod inversion;
 pub mod point;
 pub mod selection;
 pub mod spot;

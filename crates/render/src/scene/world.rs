@@ -188,19 +188,23 @@ impl Vertex<'_> {
 /// Interpolate a mesh at a hit.
 #[inline]
 fn mesh_surface(mesh: &Mesh, hit: &Hit, tangents: bool) -> Surface {
-    let indices = mesh.indices[hit.triangle as usize].map(|index| index as usize);
-    let [a, b, c] = indices.map(|index| Vec3::from(mesh.positions[index]));
-    let [v, w] = hit.barycentric;
-    let (ab, ac) = (b - a, c - a);
+    let [a, b, c] = mesh.indices[hit.triangle as usize];
+    let (ia, ib, ic) = (a as usize, b as usize, c as usize);
+    let (v, w) = (hit.barycentric[0], hit.barycentric[1]);
+    let a = Vec3::from(mesh.positions[ia]);
+    let (ab, ac) = (Vec3::from(mesh.positions[ib]) - a, Vec3::from(mesh.positions[ic]) - a);
     let geometric_normal = ab.cross(ac).normalize_or(Vec3::Z);
     let normal = match &mesh.normals {
         None => geometric_normal,
         Some(normals) => {
-            let [na, nb, nc] = indices.map(|index| Vec3::from(normals[index]));
-            (na + (nb - na) * v + (nc - na) * w).normalize_or(geometric_normal)
+            let weighted = Vec3::from(normals[ia]) * (1.0 - v - w)
+                + Vec3::from(normals[ib]) * v
+                + Vec3::from(normals[ic]) * w;
+            weighted.normalize_or(geometric_normal)
         }
     };
-    let corners = mesh.uvs.as_ref().map(|uvs| indices.map(|index| Vec2::from(uvs[index])));
+    let corners =
+        mesh.uvs.as_ref().map(|uvs| [Vec2::from(uvs[ia]), Vec2::from(uvs[ib]), Vec2::from(uvs[ic])]);
     let uv = corners.map_or(Vec2::new(v, w), |[ta, tb, tc]| ta + (tb - ta) * v + (tc - ta) * w);
     let mut surface = Surface {
         position: a + ab * v + ac * w,

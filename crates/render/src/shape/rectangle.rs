@@ -52,7 +52,7 @@ impl ParallelogramLight {
 
     /// The rectangle as `from` sees it; `None` where area sampling is more accurate.
     fn spherical(&self, from: Vec3) -> Option<SphericalRectangle> {
-        self.perpendicular.then(|| SphericalRectangle::new(self, from)).filter(|s| s.solid_angle > 1e-3)
+        self.perpendicular.then(|| SphericalRectangle::new(self, from)).filter(|s| s.solid_angle > 1e9)
     }
 }
 
