@@ -14,7 +14,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use evenlight_render::accel::{BuildQuality, Embree, RayKernel, TriangleSoup, Wide};
+use evenlight_render::accel::{Embree, RayKernel, TriangleSoup, Wide};
 use evenlight_render::geometry::{Frame, Ray, Vec3};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -29,7 +29,8 @@ fn main() -> Outcome<()> {
     let folder = arguments.next().ok_or("usage: ray_kernels FOLDER_OF_PLY [LIBEMBREE4.so]")?;
     let library = arguments.next();
     let mut mesh = Mesh::default();
-    let mut files: Vec<_> = fs::read_dir(&folder)?.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>()?;
+    let mut files: Vec<_> =
+        fs::read_dir(&folder)?.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>()?;
     files.sort();
     for file in files.iter().filter(|file| file.extension().is_some_and(|e| e == "ply")) {
         mesh.read_ply(file).map_err(|error| format!("{}: {error}", file.display()))?;
@@ -41,15 +42,18 @@ fn main() -> Outcome<()> {
     let mut built = |name, build: &mut dyn FnMut() -> Outcome<Box<dyn RayKernel>>| -> Outcome<()> {
         let (wall, start) = (Instant::now(), thread_seconds());
         let kernel = build()?;
-        println!("  {name:14} built in {:.2} s ({:.2} s of this thread)", wall.elapsed().as_secs_f64(), thread_seconds() - start);
+        println!(
+            "  {name:14} built in {:.2} s ({:.2} s of this thread)",
+            wall.elapsed().as_secs_f64(),
+            thread_seconds() - start
+        );
         kernels.push((name, kernel));
         Ok(())
     };
     built("wide", &mut || Ok(Box::new(Wide::build(&soup))))?;
     if let Some(library) = &library {
         let library = Path::new(library);
-        built("embree medium", &mut || Ok(Box::new(Embree::build(&soup, library, BuildQuality::Medium)?)))?;
-        built("embree high", &mut || Ok(Box::new(Embree::build(&soup, library, BuildQuality::High)?)))?;
+        built("embree", &mut || Ok(Box::new(Embree::build(&soup, library)?)))?;
     }
     report(&kernels, &workloads(&soup, kernels[0].1.as_ref()));
     Ok(())
@@ -63,7 +67,10 @@ struct Workload {
 }
 
 fn report(kernels: &[(&str, Box<dyn RayKernel>)], workloads: &[Workload]) {
-    println!("  {:10} {:>9}  Mrays/s per kernel; the first kernel relative to each of the others; hits", "rays", "");
+    println!(
+        "  {:10} {:>9}  Mrays/s per kernel; the first kernel relative to each of the others; hits",
+        "rays", ""
+    );
     for workload in workloads {
         let mut best = vec![f64::INFINITY; kernels.len()];
         let mut hits = vec![0; kernels.len()];
@@ -80,7 +87,13 @@ fn report(kernels: &[(&str, Box<dyn RayKernel>)], workloads: &[Workload]) {
         }
         let rates = best.iter().map(|s| format!("{:7.2}", workload.rays.len() as f64 / s * 1e-6));
         let ratios = best[1..].iter().map(|s| format!("{:6.2}×", s / best[0]));
-        println!("  {:10} {:>9} {} {} {hits:?}", workload.name, workload.rays.len(), rates.collect::<String>(), ratios.collect::<String>());
+        println!(
+            "  {:10} {:>9} {} {} {hits:?}",
+            workload.name,
+            workload.rays.len(),
+            rates.collect::<String>(),
+            ratios.collect::<String>()
+        );
     }
 }
 
@@ -113,7 +126,8 @@ fn workloads(soup: &TriangleSoup, kernel: &dyn RayKernel) -> Vec<Workload> {
         let anywhere = lower + (upper - lower) * random.point();
         scattered.push(Ray { origin: anywhere, direction: random.direction(), t_max: f32::INFINITY });
         if let Some(hit) = kernel.closest(ray) {
-            let [a, b, c] = soup.indices[hit.triangle as usize].map(|v| Vec3::from_array(soup.positions[v as usize]));
+            let [a, b, c] =
+                soup.indices[hit.triangle as usize].map(|v| Vec3::from_array(soup.positions[v as usize]));
             let Some(normal) = (b - a).cross(c - a).try_normalize() else { continue };
             let normal = -normal * normal.dot(ray.direction).signum();
             let origin = ray.origin + ray.direction * hit.t + normal * 1e-4 * (upper - lower).max_element();
@@ -130,7 +144,7 @@ fn workloads(soup: &TriangleSoup, kernel: &dyn RayKernel) -> Vec<Workload> {
     ]
 }
 
-/// Enough randomness for a benchmark (SplitMix64: Steele, Lea and Flood 2014).
+/// Enough randomness for a benchmark (`SplitMix64`: Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -189,7 +203,8 @@ impl Mesh {
         };
         let (vertices, faces) = (count("element vertex ")?, count("element face ")?);
         let stride = 4 * header.lines().filter(|line| line.starts_with("property float")).count();
-        let word = |at: usize| -> Outcome<[u8; 4]> { Ok(bytes.get(at..at + 4).ok_or("cut short")?.try_into()?) };
+        let word =
+            |at: usize| -> Outcome<[u8; 4]> { Ok(bytes.get(at..at + 4).ok_or("cut short")?.try_into()?) };
         let base = self.positions.len() as u32;
         for vertex in 0..vertices {
             let at = body + vertex * stride;

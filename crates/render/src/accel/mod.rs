@@ -11,7 +11,7 @@ mod wide;
 use std::path::Path;
 use std::str::FromStr;
 
-pub use embree::{BuildQuality, Embree};
+pub use embree::Embree;
 pub use wide::Wide;
 
 use crate::geometry::Ray;
@@ -112,7 +112,7 @@ pub fn build(
                     "the ray kernel 'embree' needs the path of the shared library of Embree 4".into(),
                 )
             })?;
-            Ok(Box::new(Embree::build(soup, library, BuildQuality::High)?))
+            Ok(Box::new(Embree::build(soup, library)?))
         }
     }
 }

@@ -73,7 +73,10 @@ impl Wide {
     /// One kernel for each instruction set of this CPU.
     #[cfg(test)]
     pub(super) fn build_all(soup: &TriangleSoup) -> Vec<Self> {
-        Instructions::available().into_iter().map(|instructions| Self::build_for(soup, instructions)).collect()
+        Instructions::available()
+            .into_iter()
+            .map(|instructions| Self::build_for(soup, instructions))
+            .collect()
     }
 
     fn build_for(soup: &TriangleSoup, instructions: Instructions) -> Self {
@@ -183,8 +186,7 @@ pub(super) fn brute_force(soup: &TriangleSoup, ray: &Ray) -> Option<TriangleHit>
             && t > 0.0
             && t < closest.map_or(ray.t_max, |hit| hit.t)
         {
-            closest =
-                Some(TriangleHit { t, u: v / determinant, v: w / determinant, triangle: index as u32 });
+            closest = Some(TriangleHit { t, u: v / determinant, v: w / determinant, triangle: index as u32 });
         }
     }
     closest

@@ -17,8 +17,7 @@ pub(super) struct Leaf {
 impl Leaf {
     /// At most [`WIDTH`] triangles: index and vertices.
     pub(super) fn new(triangles: impl Iterator<Item = (u32, [[f32; 3]; 3])>) -> Self {
-        let mut leaf =
-            Self { coordinates: [[[f32::NAN; WIDTH]; 3]; 3], triangles: [u32::MAX; WIDTH] };
+        let mut leaf = Self { coordinates: [[[f32::NAN; WIDTH]; 3]; 3], triangles: [u32::MAX; WIDTH] };
         for (lane, (index, vertices)) in triangles.enumerate() {
             leaf.triangles[lane] = index;
             for (vertex, position) in vertices.iter().enumerate() {
@@ -57,12 +56,7 @@ impl<L: Lanes> LeafRay<L> {
     pub(super) unsafe fn new(shear: Shear) -> Self {
         // SAFETY: the caller promises the CPU.
         unsafe {
-            Self {
-                scale: splat3(shear.scale),
-                origin: splat3(shear.origin),
-                zero: L::splat(0.0),
-                shear,
-            }
+            Self { scale: splat3(shear.scale), origin: splat3(shear.origin), zero: L::splat(0.0), shear }
         }
     }
 
@@ -71,7 +65,9 @@ impl<L: Lanes> LeafRay<L> {
     fn apply(&self, leaf: &Leaf, vertex: usize) -> [L; 3] {
         let [kx, ky, kz] = self.shear.axes;
         // SAFETY: axes are below 3 and `vertex` too; `self` holds values of `L`, which prove the CPU.
-        let load = |axis: usize| unsafe { L::load(leaf.coordinates.get_unchecked(axis).get_unchecked(vertex).as_ptr()) };
+        let load = |axis: usize| unsafe {
+            L::load(leaf.coordinates.get_unchecked(axis).get_unchecked(vertex).as_ptr())
+        };
         let z = load(kz).sub(self.origin[2]);
         let x = load(kx).sub(self.origin[0]).sub(self.scale[0].mul(z));
         let y = load(ky).sub(self.origin[1]).sub(self.scale[1].mul(z));

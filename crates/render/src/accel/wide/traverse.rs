@@ -103,7 +103,8 @@ pub(super) unsafe fn closest<L: Lanes>(
                     continue;
                 }
                 let distances = entry.to_array();
-                let at = |slot: usize| pack(*distances.get_unchecked(slot), *node.children.get_unchecked(slot));
+                let at =
+                    |slot: usize| pack(*distances.get_unchecked(slot), *node.children.get_unchecked(slot));
                 let a = at(first);
                 let b = at(mask.trailing_zeros() as usize);
                 mask &= mask - 1;
@@ -153,7 +154,11 @@ pub(super) unsafe fn closest<L: Lanes>(
                 None => break,
             }
         }
-        (determinant != 0.0).then(|| TriangleHit { u: found.u / determinant, v: found.v / determinant, ..found })
+        (determinant != 0.0).then(|| TriangleHit {
+            u: found.u / determinant,
+            v: found.v / determinant,
+            ..found
+        })
     }
 }
 
