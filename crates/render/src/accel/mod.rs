@@ -61,7 +61,7 @@ pub trait RayKernel: Send + Sync {
 /// The kernels by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KernelChoice {
-    /// The faster of the watertight kernels: [`Wide`].
+    /// The faster of the watertight kernels: [`Wide`] (1.2 to 1.8 times Embree's robust mode in `examples/ray_kernels.rs`).
     #[default]
     Auto,
     /// Intel Embree 4, robust mode, from a shared library.

@@ -10,7 +10,8 @@ use super::leaf::Leaf;
 use super::node::{Child, Node};
 use crate::accel::TriangleSoup;
 
-/// Cost of testing one inner node, in units of one leaf. Both are bound by latency; anything from 0.5 to 2 performs about alike.
+/// Cost of testing one inner node, in units of one leaf. Both wait for memory more than they compute; anything from 0.5 to 2
+/// performs about alike.
 const NODE_COST: f32 = 0.5;
 
 /// The wide tree in traversal order.
