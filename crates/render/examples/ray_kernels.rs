@@ -14,7 +14,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use evenlight_render::accel::{BuildQuality, Embree, RayKernel, TriangleSoup, Wide};
+use evenlight_render::accel::{Embree, RayKernel, TriangleSoup, Wide};
 use evenlight_render::geometry::{Frame, Ray, Vec3};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -53,8 +53,7 @@ fn main() -> Outcome<()> {
     built("wide", &mut || Ok(Box::new(Wide::build(&soup))))?;
     if let Some(library) = &library {
         let library = Path::new(library);
-        built("embree medium", &mut || Ok(Box::new(Embree::build(&soup, library, BuildQuality::Medium)?)))?;
-        built("embree high", &mut || Ok(Box::new(Embree::build(&soup, library, BuildQuality::High)?)))?;
+        built("embree", &mut || Ok(Box::new(Embree::build(&soup, library)?)))?;
     }
     report(&kernels, &workloads(&soup, kernels[0].1.as_ref()));
     Ok(())
@@ -145,7 +144,7 @@ fn workloads(soup: &TriangleSoup, kernel: &dyn RayKernel) -> Vec<Workload> {
     ]
 }
 
-/// Enough randomness for a benchmark (SplitMix64: Steele, Lea and Flood 2014).
+/// Enough randomness for a benchmark (`SplitMix64`: Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {

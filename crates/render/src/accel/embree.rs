@@ -1,7 +1,8 @@
 //! Intel Embree 4, loaded at run time: choose it to compare against the industry's reference kernel.
 //!
 //! Nothing is linked: the shared library is opened from a path (the Python wheel `embreex` ships one). The robust scene flag
-//! is always set. Only the dozen functions of the C interface that one triangle mesh needs are used.
+//! is always set. Only those functions of the C interface are used that one triangle mesh needs. The build quality stays at
+//! its default: in robust mode the high one builds the same tree (measured).
 #![allow(unsafe_code)] // a foreign C interface
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
@@ -14,15 +15,6 @@ use libloading::Library;
 use super::{RayKernel, TriangleHit, TriangleSoup};
 use crate::geometry::Ray;
 use crate::{Error, Result};
-
-/// How much work Embree puts into its tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BuildQuality {
-    /// Binned surface area heuristic.
-    Medium = 1,
-    /// With spatial splits: slower to build, faster to trace.
-    High = 2,
-}
 
 // Constants of the C interface (rtcore_device.h, rtcore_common.h, rtcore_buffer.h, rtcore_scene.h).
 const PROPERTY_VERSION_MAJOR: c_int = 1;
@@ -90,11 +82,9 @@ struct Functions {
     release_device: unsafe extern "C" fn(Handle),
     new_scene: unsafe extern "C" fn(Handle) -> Handle,
     scene_flags: unsafe extern "C" fn(Handle, c_int),
-    scene_quality: unsafe extern "C" fn(Handle, c_int),
     commit_scene: unsafe extern "C" fn(Handle),
     release_scene: unsafe extern "C" fn(Handle),
     new_geometry: unsafe extern "C" fn(Handle, c_int) -> Handle,
-    geometry_quality: unsafe extern "C" fn(Handle, c_int),
     new_buffer: unsafe extern "C" fn(Handle, c_int, c_uint, c_int, usize, usize) -> *mut c_void,
     commit_geometry: unsafe extern "C" fn(Handle),
     attach_geometry: unsafe extern "C" fn(Handle, Handle) -> c_uint,
@@ -124,11 +114,9 @@ impl Functions {
             release_device: function!("rtcReleaseDevice"),
             new_scene: function!("rtcNewScene"),
             scene_flags: function!("rtcSetSceneFlags"),
-            scene_quality: function!("rtcSetSceneBuildQuality"),
             commit_scene: function!("rtcCommitScene"),
             release_scene: function!("rtcReleaseScene"),
             new_geometry: function!("rtcNewGeometry"),
-            geometry_quality: function!("rtcSetGeometryBuildQuality"),
             new_buffer: function!("rtcSetNewGeometryBuffer"),
             commit_geometry: function!("rtcCommitGeometry"),
             attach_geometry: function!("rtcAttachGeometry"),
@@ -157,7 +145,7 @@ impl Embree {
     ///
     /// # Errors
     /// When the library is missing, is not Embree 4, or cannot build the tree.
-    pub fn build(soup: &TriangleSoup, library: &Path, quality: BuildQuality) -> Result<Self> {
+    pub fn build(soup: &TriangleSoup, library: &Path) -> Result<Self> {
         let functions = Functions::load(library)?;
         // SAFETY: a null configuration means the default one.
         let device = unsafe { (functions.new_device)(ptr::null()) };
@@ -180,11 +168,9 @@ impl Embree {
             let geometry = (f.new_geometry)(device, GEOMETRY_TRIANGLE);
             copy_buffer(f, geometry, BUFFER_VERTEX, FORMAT_FLOAT3, soup.positions);
             copy_buffer(f, geometry, BUFFER_INDEX, FORMAT_UINT3, soup.indices);
-            (f.geometry_quality)(geometry, quality as c_int);
             (f.commit_geometry)(geometry);
             kernel.scene = (f.new_scene)(device);
             (f.scene_flags)(kernel.scene, SCENE_ROBUST);
-            (f.scene_quality)(kernel.scene, quality as c_int);
             (f.attach_geometry)(kernel.scene, geometry);
             (f.release_geometry)(geometry);
             (f.commit_scene)(kernel.scene);
@@ -243,7 +229,7 @@ impl RayKernel for Embree {
         };
         // SAFETY: the scene is committed; `query` has the layout of RTCRayHit.
         unsafe { (self.functions.intersect)(self.scene, &raw mut query, ptr::null()) };
-        (query.geometry != NOTHING).then(|| TriangleHit {
+        (query.geometry != NOTHING).then_some(TriangleHit {
             t: query.ray.t_far,
             u: query.u,
             v: query.v,

@@ -42,6 +42,7 @@ enum Instructions {
 impl Instructions {
     /// All that this CPU can run, the fastest last.
     fn available() -> Vec<Self> {
+        #[cfg_attr(not(target_arch = "x86_64"), allow(unused_mut))]
         let mut available = vec![Self::Portable];
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx2")

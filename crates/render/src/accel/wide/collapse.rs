@@ -10,13 +10,15 @@ use super::leaf::Leaf;
 use super::node::{Child, Node};
 use crate::accel::TriangleSoup;
 
-/// Cost of testing one inner node, in units of one leaf. Both are bound by latency; anything from 0.5 to 2 performs about alike.
+/// Cost of testing one inner node, in units of one leaf. Both wait for memory more than they compute; anything from 0.5 to 2
+/// performs about alike.
 const NODE_COST: f32 = 0.5;
 
 /// The wide tree in traversal order.
 pub(super) struct Tree {
     /// The root comes first.
     pub(super) nodes: Vec<Node>,
+    /// The first is empty: the child in empty slots.
     pub(super) leaves: Vec<Leaf>,
     /// Levels of inner nodes.
     pub(super) depth: usize,
@@ -25,9 +27,10 @@ pub(super) struct Tree {
 /// How one binary node is best represented.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    /// `cost[i]`: as a forest of at most `i + 1` wide trees.
-    cost: [f32; WIDTH],
-    /// `left[i]`: how many of those trees the left child gets; 0 when one tree fewer is as good.
+    /// `cost[i]`: as a forest of at most `i + 1` wide trees, up to 7.
+    cost: [f32; WIDTH - 1],
+    /// `left[i]`: how many of those trees the left child gets; 0 when one tree fewer is as good. The last one says how an
+    /// inner node's eight slots are handed out.
     left: [u8; WIDTH],
     /// Triangles below.
     triangles: u32,
@@ -37,7 +40,7 @@ struct Plan {
 
 /// Plan all nodes bottom-up, then emit the best wide tree top-down.
 pub(super) fn collapse(bvh: &Bvh2, soup: &TriangleSoup) -> Tree {
-    let mut tree = Tree { nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 };
+    let mut tree = Tree { nodes: vec![Node::EMPTY], leaves: vec![Leaf::new(std::iter::empty())], depth: 1 };
     if bvh.nodes.is_empty() {
         return tree;
     }
@@ -90,7 +93,7 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
         let node = &bvh.nodes[n as usize];
         let area = node.aabb().half_area();
         plans[n as usize] = if node.is_leaf() {
-            Plan { cost: [area; WIDTH], left: [0; WIDTH], triangles: node.prim_count, leaf: true }
+            Plan { cost: [area; WIDTH - 1], left: [0; WIDTH], triangles: node.prim_count, leaf: true }
         } else {
             let first = node.first_index as usize;
             plan_inner(area, &plans[first], &plans[first + 1])
@@ -100,26 +103,24 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
 }
 
 fn plan_inner(area: f32, left: &Plan, right: &Plan) -> Plan {
-    let mut plan = Plan { triangles: left.triangles + right.triangles, ..Plan::default() };
-    let mut distribute = [f32::INFINITY; WIDTH];
-    for trees in 2..=WIDTH {
-        for k in 1..trees {
+    // The best way to hand out trees to the two children: cost, and how many go left.
+    let distribute = |trees: usize| {
+        (1..trees).fold((f32::INFINITY, 1), |best, k| {
             let cost = left.cost[k - 1] + right.cost[trees - k - 1];
-            if cost < distribute[trees - 1] {
-                distribute[trees - 1] = cost;
-                plan.left[trees - 1] = k as u8;
-            }
-        }
-    }
-    let inner = distribute[WIDTH - 1] + area * NODE_COST;
-    plan.leaf = plan.triangles as usize <= WIDTH && area <= inner;
-    plan.cost[0] = if plan.leaf { area } else { inner };
-    for i in 1..WIDTH {
-        plan.cost[i] = distribute[i].min(plan.cost[i - 1]);
-        // The full width is kept: a node that is opened always distributes.
-        if plan.cost[i - 1] <= distribute[i] && i + 1 < WIDTH {
-            plan.left[i] = 0;
-        }
+            if cost < best.0 { (cost, k as u8) } else { best }
+        })
+    };
+    let mut plan = Plan { triangles: left.triangles + right.triangles, ..Plan::default() };
+    let (children, split) = distribute(WIDTH);
+    let opened = children + area * NODE_COST;
+    plan.left[WIDTH - 1] = split;
+    plan.leaf = plan.triangles as usize <= WIDTH && area <= opened;
+    plan.cost[0] = if plan.leaf { area } else { opened };
+    for trees in 2..WIDTH {
+        let (cost, split) = distribute(trees);
+        let fewer = plan.cost[trees - 2];
+        plan.cost[trees - 1] = cost.min(fewer);
+        plan.left[trees - 1] = if cost < fewer { split } else { 0 };
     }
     plan
 }

@@ -1,6 +1,8 @@
 //! Vectors of eight floats: what the traversal needs of SIMD, and no more.
 //!
-//! The traversal is written once over [`Lanes`]. [`Avx`] is an x86 register; [`Portable`] is plain Rust for every other CPU. All operations round alike, so every implementation finds the same hits.
+//! The traversal is written once over [`Lanes`]. [`Avx`] is an x86 register; [`Portable`] is plain Rust for every other CPU.
+//! Triangles are tested with operations that round alike in both, so both find the same hits. Only the (conservative) box
+//! test uses the fused operations, which may differ in the last bit.
 #![allow(unsafe_code)] // the one place that speaks to x86 intrinsics
 
 #[cfg(target_arch = "x86_64")]

@@ -30,7 +30,6 @@ impl Leaf {
     }
 
     /// The vertices of one triangle.
-    #[inline(always)]
     pub(super) fn vertices(&self, lane: usize) -> [[f32; 3]; 3] {
         let [x, y, z] = &self.coordinates;
         [
@@ -60,7 +59,7 @@ impl<L: Lanes> LeafRay<L> {
         }
     }
 
-    /// One vertex of all lanes: sheared x and y, scaled z.
+    /// One vertex of all lanes, as [`Shear`] does it.
     #[inline(always)]
     fn apply(&self, leaf: &Leaf, vertex: usize) -> [L; 3] {
         let [kx, ky, kz] = self.shear.axes;

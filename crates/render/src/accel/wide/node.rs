@@ -12,6 +12,9 @@ pub(super) struct Child(pub(super) u32);
 impl Child {
     const LEAF: u32 = 1 << 31;
 
+    /// The first leaf, which is empty.
+    const EMPTY: Self = Self(Self::LEAF);
+
     pub(super) fn leaf(index: usize) -> Self {
         Self(index as u32 | Self::LEAF)
     }
@@ -31,7 +34,8 @@ impl Child {
     }
 }
 
-/// Eight boxes and what is inside. Empty slots are inside out and infinite: no ray meets them.
+/// Eight boxes and what is inside. Empty slots are inside out and infinite, so that no ray meets them; a ray that is not a
+/// number may, but finds an empty leaf there.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
@@ -51,7 +55,7 @@ impl Node {
             [f32::INFINITY; WIDTH],
             [f32::NEG_INFINITY; WIDTH],
         ],
-        children: [Child(0); WIDTH],
+        children: [Child::EMPTY; WIDTH],
     };
 
     pub(super) fn set(&mut self, slot: usize, lower: [f32; 3], upper: [f32; 3], child: Child) {

@@ -1,7 +1,7 @@
 //! The watertight ray–triangle test of Woop, Benthin and Wald 2013 ("Watertight Ray/Triangle Intersection", JCGT 2(1)).
 //!
-//! The scalar form: the reference for the tests, the exact fallback on edges, and the last step that turns the winning
-//! triangle into barycentric coordinates. The wide form in [`super::leaf`] repeats its arithmetic operation by operation.
+//! The scalar form: the exact fallback on edges, and the reference for the tests. The wide form in [`super::leaf`] repeats
+//! its arithmetic operation by operation.
 
 use crate::geometry::Ray;
 
