@@ -157,6 +157,23 @@ def test_golden_bits_reach_python() -> None:
         assert [f"{word:016x}" for word in values.view(np.uint64)] == bits, line
 
 
+@every_engine
+def test_replicates_are_new_engines_with_their_own_seeds(name: str, settings: dict[str, Any]) -> None:
+    sequence = engine(name, settings)
+    if not sequence.is_random:
+        with pytest.raises(ValueError, match="has no randomness to replicate"):
+            sequence.replicate(0)
+        return
+    sequence.random(4)
+    replicates = [sequence.replicate(r) for r in range(64)]
+    assert len({replicate.seed for replicate in [sequence, *replicates]}) == 65
+    assert {type(replicate) for replicate in replicates} == {type(sequence)}
+    np.testing.assert_array_equal(replicates[5].random(4), engine(name, settings).replicate(5).points(0, 4))
+    first = np.array([replicate.points(0, 1)[0] for replicate in replicates])
+    # Five standard deviations of the mean of 64 independent uniform numbers.
+    assert np.abs(first.mean(axis=0) - 0.5).max() < 5 / np.sqrt(12 * 64)
+
+
 # --- known points ---
 
 

@@ -6,6 +6,22 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "PointSet",
+    "Scene",
+    "__version__",
+    "available_sequences",
+    "check_writable",
+    "filters",
+    "integrators",
+    "load_scene",
+    "render",
+    "replicate_seed",
+    "samplers",
+    "write_exr",
+    "write_png",
+]
+
 __version__: str
 
 # --- points ---
@@ -18,6 +34,7 @@ class PointSet:
     def coord(self, index: int, dim: int) -> float: ...
     def fill(self, start: int, stop: int, out: NDArray[np.float64] | NDArray[np.float32]) -> None: ...
 
+def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], int]]: ...
 
 # --- render ---

@@ -58,3 +58,20 @@ impl Unit for f32 {
         unit_f32((word >> 32) as u32)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_near_the_end_stay_below_one_and_in_their_intervals() {
+        for bit in 0..64 {
+            let word = u64::MAX << bit;
+            let (double, single) = (f64::from_word(word), f32::from_word(word));
+            assert!(double < 1.0 && single < 1.0 && f64::from(single) <= double, "{word:x}");
+            // The interval of the leading ones: [1 − 2^(bit − 64), 1).
+            assert!(double >= 1.0 - 2f64.powi((bit - 64).max(-53)), "{word:x}");
+            assert_eq!(truncate_to_f32(double), single);
+        }
+    }
+}

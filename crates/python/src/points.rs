@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 /// Adds this room to the extension module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PointSet>()?;
+    module.add_function(wrap_pyfunction!(replicate_seed, module)?)?;
     module.add_function(wrap_pyfunction!(available_sequences, module)?)
 }
 
@@ -61,6 +62,12 @@ impl PointSet {
         }
         Ok(())
     }
+}
+
+/// The seed of an independent repetition.
+#[pyfunction]
+fn replicate_seed(seed: u64, replicate: u64) -> u64 {
+    Seed::new(seed).replicate(replicate).bits64()
 }
 
 /// (name, citation, accepted scrambles, most dimensions) of every sequence.

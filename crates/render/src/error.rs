@@ -1,7 +1,7 @@
 //! One error type for the crate: what was asked, what is allowed, and where.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A place in a scene file.
@@ -42,9 +42,24 @@ pub enum Error {
         /// What the operating system says.
         source: std::io::Error,
     },
+    /// A mesh, an image or a table is not valid.
+    #[error("{}: {message}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        message: String,
+    },
     /// A render setting is out of its range.
     #[error("{0}")]
     Settings(String),
+}
+
+impl Error {
+    /// An error in the contents of a file.
+    pub(crate) fn file(path: &Path, message: impl fmt::Display) -> Self {
+        Self::File { path: path.to_owned(), message: message.to_string() }
+    }
 }
 
 /// The result of everything that can fail in this crate.

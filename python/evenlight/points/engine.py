@@ -76,8 +76,8 @@ class Engine(qmc.QMCEngine):
         start, stop : int
             0 <= start <= stop < 2^64.
         out : ndarray of float64 or float32, shape (stop - start, d), optional
-            C-contiguous array to write to. Writing over a used array is several times as fast as
-            asking the system for a new one. In single precision, the numbers are truncated.
+            C-contiguous array to write to, which spares a new large one its page faults. In single
+            precision, the numbers are truncated.
 
         Returns
         -------
@@ -107,6 +107,42 @@ class Engine(qmc.QMCEngine):
             raise TypeError(f"out must be a numpy array, not {type(out).__name__}")
         self._core.fill(first, last, out)
         return out
+
+    @property
+    def is_random(self) -> bool:
+        """Whether the seed matters."""
+        return self.scramble != "none"
+
+    def replicate(self, r: SupportsIndex) -> Self:
+        """Randomize the same sequence anew, for error estimates from independent repetitions.
+
+        Parameters
+        ----------
+        r : int
+            The number of the repetition, at least 0. Different numbers give independent points; all of
+            them are independent of the engine itself.
+
+        Returns
+        -------
+        Engine
+            A new engine at row 0, whose seed follows from this one's and `r` alone.
+
+        Raises
+        ------
+        ValueError
+            If nothing in the sequence is random.
+
+        Examples
+        --------
+        >>> from evenlight.points import Sobol
+        >>> means = [Sobol(2, seed=7).replicate(r).random(256).prod(axis=1).mean() for r in range(8)]
+        >>> all(abs(mean - 0.25) < 0.001 for mean in means)
+        True
+        """
+        number = _integer("r", r, 0)
+        if not self.is_random:
+            raise ValueError(f"{self!r} has no randomness to replicate; choose a scramble other than 'none'")
+        return type(self)(**self._spec(), seed=_core.replicate_seed(self.seed, number))
 
     def fast_forward(self, n: SupportsIndex) -> Self:  # type: ignore[override]  # any integer will do
         """Skip the next `n` rows of `random`, at no cost.

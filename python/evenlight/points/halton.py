@@ -30,7 +30,7 @@ class Halton(Engine):
 
     Notes
     -----
-    Some ten nanoseconds per coordinate, more in the first dimensions. References: J. H. Halton, Numer.
+    10 to 50 nanoseconds per coordinate. References: J. H. Halton, Numer.
     Math. 2, 84-90 (1960); A. B. Owen, *Randomly permuted (t,m,s)-nets and (t,s)-sequences* (1995). The
     permutations are random affine maps modulo the prime, which give the same mean and variance as
     uniform ones (J. Matousek, J. Complexity 14, 527-556, 1998).

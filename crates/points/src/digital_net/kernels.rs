@@ -36,7 +36,10 @@ fn owen_body<T: Unit>(tile: &[u64], period: &[u64], keys: &[u64], out: &mut [T])
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::Ordering;
+
     use super::*;
+    use crate::instruction_sets::WITHOUT_AVX512;
 
     /// The kernels of this machine against the plain compilation of the same loop, lengths included
     /// that no vector divides.
@@ -47,12 +50,16 @@ mod tests {
             let (tile, offsets, keys) = (words(length, 1), words(period, 2000), words(period, 3000));
             let mut fast = vec![0.0_f64; length as usize];
             let mut plain = fast.clone();
-            owen(&tile, &offsets, &keys, &mut fast);
-            owen_body(&tile, &offsets, &keys, &mut plain);
-            assert_eq!(fast, plain);
-            shifted(&tile, &offsets, &mut fast);
-            shifted_body(&tile, &offsets, &mut plain);
-            assert_eq!(fast, plain);
+            for without_avx512 in [false, true] {
+                WITHOUT_AVX512.store(without_avx512, Ordering::Relaxed);
+                owen(&tile, &offsets, &keys, &mut fast);
+                owen_body(&tile, &offsets, &keys, &mut plain);
+                assert_eq!(fast, plain);
+                shifted(&tile, &offsets, &mut fast);
+                shifted_body(&tile, &offsets, &mut plain);
+                assert_eq!(fast, plain);
+            }
+            WITHOUT_AVX512.store(false, Ordering::Relaxed);
         }
     }
 }

@@ -6,7 +6,8 @@
 use std::ops::Range;
 
 use super::Entry;
-use crate::convert::unit_f64;
+use crate::convert::{Unit, unit_f64};
+use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
 use crate::scramble::Scrambling;
 use crate::seed::mix;
@@ -21,42 +22,75 @@ pub(super) const ENTRY: Entry = Entry {
     build: |dims, _, seed| Box::new(Independent::new(dims, seed)),
 };
 
+/// Coordinates that are made in one go at least, so that vector loops are long even if d is 1.
+const PERIOD: usize = 256;
+
 /// Independent uniform points.
 #[derive(Debug)]
 pub struct Independent {
-    keys: Vec<[u64; 2]>,
+    dims: usize,
+    /// The two keys of each coordinate, for some rows: the row is added to the first of them.
+    keys: [Vec<u64>; 2],
 }
 
 impl Independent {
     /// Points of `dims` coordinates.
+    ///
+    /// # Panics
+    /// If `dims` is 0.
     pub fn new(dims: usize, seed: Seed) -> Self {
-        let keys = (0..dims as u64).map(|dim| seed.dimension(dim));
-        Self { keys: keys.map(|key| [key.split(0, 0).bits64(), key.split(0, 1).bits64()]).collect() }
+        let rows = PERIOD.div_ceil(dims) as u64;
+        let key = |dim, which| seed.dimension(dim).split(0, which).bits64();
+        let first: Vec<_> = (0..dims as u64).map(|dim| key(dim, 0)).collect();
+        let first = (0..rows).flat_map(|row| first.iter().map(move |key| key.wrapping_add(row))).collect();
+        let second: Vec<_> = (0..dims as u64).map(|dim| key(dim, 1)).collect();
+        Self { dims, keys: [first, second.repeat(rows as usize)] }
+    }
+
+    fn fill_units<T: Unit>(&self, rows: Range<u64>, out: &mut [T]) {
+        check_length(&rows, self.dims, out.len());
+        let [first, second] = &self.keys;
+        let starts = rows.step_by(first.len() / self.dims);
+        starts
+            .zip(out.chunks_mut(first.len()))
+            .for_each(|(start, out)| uniform_rows(start, first, second, out));
+    }
+}
+
+impl PointSet for Independent {
+    fn dims(&self) -> usize {
+        self.dims
+    }
+
+    fn coord(&self, index: u64, dim: usize) -> f64 {
+        assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
+        unit_f64(hash(index, self.keys[0][dim], self.keys[1][dim]))
+    }
+
+    fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
+        self.fill_units(rows, out);
+    }
+
+    fn fill_f32(&self, rows: Range<u64>, out: &mut [f32]) {
+        self.fill_units(rows, out);
     }
 }
 
 /// Two rounds with two keys: a single round would be one of `SplitMix64`'s streams, all of which are
 /// parts of one cycle, so that two dimensions could overlap.
-#[inline]
-fn uniform(index: u64, [first, second]: [u64; 2]) -> f64 {
-    unit_f64(mix(mix(first.wrapping_add(index)) ^ second))
+#[inline(always)]
+fn hash(index: u64, first: u64, second: u64) -> u64 {
+    mix(mix(first.wrapping_add(index)) ^ second)
 }
 
-impl PointSet for Independent {
-    fn dims(&self) -> usize {
-        self.keys.len()
-    }
+for_this_machine! {
+    /// Rows from `start` on, as many as there are keys for.
+    uniform_rows = uniform_rows_body<T: Unit>(start: u64, first: &[u64], second: &[u64], out: &mut [T])
+}
 
-    fn coord(&self, index: u64, dim: usize) -> f64 {
-        uniform(index, self.keys[dim])
-    }
-
-    fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
-        check_length(&rows, self.dims(), out.len());
-        for (index, point) in rows.zip(out.chunks_exact_mut(self.dims())) {
-            for (x, &keys) in point.iter_mut().zip(&self.keys) {
-                *x = uniform(index, keys);
-            }
-        }
+#[inline(always)]
+fn uniform_rows_body<T: Unit>(start: u64, first: &[u64], second: &[u64], out: &mut [T]) {
+    for ((x, &first), &second) in out.iter_mut().zip(first).zip(second) {
+        *x = T::from_word(hash(start, first, second));
     }
 }

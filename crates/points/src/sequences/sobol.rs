@@ -28,11 +28,15 @@ pub fn sobol(dims: usize, scramble: Scrambling, seed: Seed) -> DigitalNet {
     DigitalNet::new(&columns, scramble, seed)
 }
 
-/// The columns of one generating matrix, first digit in the most significant bit.
+/// The columns of one generating matrix, first digit in the most significant bit: what a renderer needs
+/// to build tables of its own. Column k is the word of point 2^k.
 ///
 /// With the polynomial `x^s + a_1 x^(s-1) + … + a_s` and `v_k = m_k / 2^k`, Bratley and Fox (1988,
 /// equation 5) give `v_k = a_1 v_(k-1) ⊕ … ⊕ a_s v_(k-s) ⊕ v_(k-s) / 2^s`.
-fn direction_numbers(dim: usize) -> [u64; BITS] {
+///
+/// # Panics
+/// If `dim` is not below 21,201.
+pub fn direction_numbers(dim: usize) -> [u64; BITS] {
     let (polynomial, initial) = sobol_initial(dim);
     let degree = initial.len();
     if degree == 0 {

@@ -5,6 +5,7 @@
 #![allow(unsafe_code)] // a foreign C interface
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::ptr;
 
@@ -78,7 +79,10 @@ impl EmbreeRay {
 
 type Handle = *mut c_void;
 
-/// The functions of the C interface; valid as long as `_library` is loaded.
+/// The functions of the C interface.
+///
+/// The library stays loaded until the program ends: its worker threads may outlive the last scene, and unloading it under
+/// their feet crashes.
 struct Functions {
     new_device: unsafe extern "C" fn(*const c_char) -> Handle,
     device_property: unsafe extern "C" fn(Handle, c_int) -> isize,
@@ -97,7 +101,7 @@ struct Functions {
     release_geometry: unsafe extern "C" fn(Handle),
     intersect: unsafe extern "C" fn(Handle, *mut EmbreeRayHit, *const c_void),
     occluded: unsafe extern "C" fn(Handle, *mut EmbreeRay, *const c_void),
-    _library: Library,
+    _library: ManuallyDrop<Library>,
 }
 
 impl Functions {
@@ -131,7 +135,7 @@ impl Functions {
             release_geometry: function!("rtcReleaseGeometry"),
             intersect: function!("rtcIntersect1"),
             occluded: function!("rtcOccluded1"),
-            _library: library,
+            _library: ManuallyDrop::new(library),
         })
     }
 }

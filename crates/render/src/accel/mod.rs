@@ -4,6 +4,8 @@
 //! or vertex of a closed mesh never slips through.
 
 mod embree;
+#[cfg(test)]
+mod tests;
 mod wide;
 
 use std::path::Path;

@@ -6,6 +6,9 @@
 #[inline]
 pub(crate) fn erf(x: f32) -> f32 {
     let a = x.abs();
+    if a > 4.0 {
+        return 1.0_f32.copysign(x); // 1 - erf(4) is 1.5e-8; an exponential that underflows would be slow
+    }
     let t = 1.0 / (1.0 + 0.3275911 * a);
     let coefficients = [1.061405429_f32, -1.453152027, 1.421413741, -0.284496736, 0.254829592];
     let polynomial = coefficients.iter().fold(0.0, |sum, coefficient| sum * t + coefficient) * t;

@@ -30,24 +30,25 @@ impl Perturbed {
         })
     }
 
-    /// The perturbed frame in local coordinates and the surface as the nested BSDF sees it.
+    /// The perturbed frame in local coordinates, its tangent as near to the old one as can be, and the surface as the nested BSDF sees it.
     #[inline]
     fn frame(&self, surface: &Surface, n: Vec3, wo: Vec3) -> (Frame, Surface) {
         let n = if self.flip && n.dot(wo) * wo.z <= 0.0 { Vec3::new(-n.x, -n.y, n.z) } else { n };
-        let local = Frame::from_normal_and_tangent(n, surface.shading.to_local(surface.dp_du));
+        let local = Frame::from_normal_and_tangent(n, Vec3::X);
         let world = |v: Vec3| surface.shading.to_world(v);
         let shading = Frame { s: world(local.s), t: world(local.t), n: world(local.n) };
         (local, Surface { shading, ..*surface })
     }
 
-    /// G1 of a GGX surface with α² = tan²θ / 8, where θ is between the two normals.
+    /// G1 of a GGX surface with α² = tan²θ / 8 but at most 1, where θ is between the two normals.
     #[inline]
     fn shadow(&self, n: Vec3, wi: Vec3) -> f32 {
         if !self.shadowing {
             return 1.0;
         }
         let tangent_squared = |v: Vec3| (v.x * v.x + v.y * v.y) / (v.z * v.z);
-        2.0 / (1.0 + (1.0 + 0.125 * tangent_squared(n) * tangent_squared(wi)).sqrt())
+        let alpha_squared = (0.125 * tangent_squared(n)).min(1.0);
+        2.0 / (1.0 + (1.0 + alpha_squared * tangent_squared(wi)).sqrt())
     }
 
     /// Sample about the local unit normal `n`.

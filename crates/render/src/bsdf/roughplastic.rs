@@ -8,7 +8,8 @@ use std::sync::Arc;
 use crate::Result;
 use crate::bsdf::coat::Coat;
 use crate::bsdf::fresnel;
-use crate::bsdf::microfacet::{Microfacets, Roughness, interface_albedo};
+use crate::bsdf::interface::{self, GaussLegendre};
+use crate::bsdf::microfacet::{Microfacets, Roughness};
 use crate::bsdf::warp::cosine_hemisphere;
 use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
 use crate::geometry::{Rgb, Surface, Vec3};
@@ -39,10 +40,11 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn B
         return Err(properties.error("alpha must be one number"));
     };
     let node = |i: usize| (i as f32 / (NODES - 1) as f32).max(1e-6);
-    let all = facets.of_visible_normals();
-    let transmittance = Box::new(std::array::from_fn(|i| interface_albedo(&all, node(i), coat.eta, true)));
+    let (all, rule) = (facets.of_visible_normals(), GaussLegendre::new(32));
+    let transmittance =
+        Box::new(std::array::from_fn(|i| interface::albedo(&all, node(i), coat.eta, true, &rule)));
     // Mitsuba's estimate of the cosine-weighted mean: that of the nodes, ends counted in full.
-    let reflected = |i: usize| interface_albedo(&all, node(i), 1.0 / coat.eta, false) * node(i);
+    let reflected = |i: usize| interface::albedo(&all, node(i), 1.0 / coat.eta, false, &rule) * node(i);
     let internal = 2.0 * (0..NODES).map(reflected).sum::<f32>() / NODES as f32;
     Ok(Arc::new(RoughPlastic { coat, facets, transmittance, internal }))
 }

@@ -16,10 +16,13 @@ use crate::sensor::Sensor;
 
 mod assemble;
 pub mod build;
+pub mod folder;
 pub mod materials;
 pub mod mesh;
+pub mod mitsuba;
 pub mod node;
 pub mod properties;
+pub mod spectrum;
 pub mod world;
 
 /// How to read a scene.

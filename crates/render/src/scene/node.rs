@@ -3,12 +3,12 @@
 //! Parameters of the command line (`$name`), includes, transforms and relative paths are already resolved here; references are
 //! shared nodes.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DMat4;
 
 use crate::Location;
+use crate::scene::folder::Folder;
 
 /// What a plugin is: the name of its XML element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,6 +42,23 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 13] = [
+        Self::Scene,
+        Self::Integrator,
+        Self::Sensor,
+        Self::Film,
+        Self::ReconstructionFilter,
+        Self::Sampler,
+        Self::Shape,
+        Self::Bsdf,
+        Self::Emitter,
+        Self::Texture,
+        Self::Medium,
+        Self::PhaseFunction,
+        Self::Volume,
+    ];
+
     /// The XML element that introduces this kind.
     pub fn element(self) -> &'static str {
         match self {
@@ -133,8 +150,8 @@ pub struct Node {
     pub parameters: Vec<Parameter>,
     /// Its nested and referenced plugins, in file order.
     pub children: Vec<Child>,
-    /// The scene folder that relative file names are resolved against and, unless allowed, must not leave.
-    pub folder: Arc<PathBuf>,
+    /// Where its files are looked up and, unless allowed, must be.
+    pub folder: Arc<Folder>,
 }
 
 impl Node {

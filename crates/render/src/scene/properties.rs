@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4};
@@ -171,12 +171,12 @@ impl<'a> Properties<'a> {
         }
     }
 
-    /// A file name, resolved against the scene's folder. The file need not exist.
+    /// A file name, resolved in the scene's folder. The file need not exist, but must not lie outside unless allowed.
     pub fn path(&self, name: &str) -> Result<Option<PathBuf>> {
-        Ok(self.optional_string(name)?.map(|given| {
-            let given = Path::new(given);
-            if given.is_absolute() { given.to_owned() } else { self.node.folder.join(given) }
-        }))
+        let Some(parameter) = self.parameter(name) else { return Ok(None) };
+        let Value::String(given) = &parameter.value else { return self.mismatch(parameter, "a file name") };
+        let resolved = self.node.folder.resolve(given);
+        resolved.map(Some).map_err(|message| Error::Scene { location: parameter.location.clone(), message })
     }
 
     /// [`Properties::path`] of a parameter that must be given.

@@ -21,8 +21,7 @@ const FACES: [(Vec3, Vec3); 6] = [
 
 fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
     let flip = properties.boolean("flip_normals", false)?;
-    let mut mesh =
-        Mesh { positions: Vec::new(), normals: Some(Vec::new()), uvs: Some(Vec::new()), indices: Vec::new() };
+    let mut mesh = Mesh::default();
     for (face, (normal, tangent)) in (0_u32..).zip(FACES) {
         let bitangent = normal.cross(tangent);
         for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {

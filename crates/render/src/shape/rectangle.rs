@@ -19,6 +19,7 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
         uvs: Some(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
         indices: vec![[0, 1, 2], [2, 3, 0]],
         normals: Some(vec![[0.0, 0.0, 1.0]; 4]),
+        ..Mesh::default()
     };
     triangles::transform(&mut mesh, &to_world(properties)?);
     if flip {

@@ -31,7 +31,7 @@ impl MeshOptions {
 /// Bring a mesh to world space, with the normals it should have.
 pub(crate) fn place(mut mesh: Mesh, options: &MeshOptions) -> Mesh {
     transform(&mut mesh, &options.to_world);
-    if options.face_normals {
+    if options.face_normals || mesh.face_normals {
         mesh.normals = None;
     } else if mesh.normals.is_none() {
         mesh.normals = Some(vertex_normals(&mesh));

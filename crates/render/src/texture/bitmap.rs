@@ -10,7 +10,6 @@ use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 use crate::texture::Texture;
 use crate::texture::coordinates::Coordinates;
-use crate::texture::image::Image;
 use crate::texture::texels::{Texels, with_texels};
 
 pub(crate) const ENTRY: Entry<dyn Texture> = Entry { name: "bitmap", build };
@@ -58,21 +57,22 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn T
     let Some(path) = properties.path("filename")? else {
         return Err(properties.error("needs a filename"));
     };
-    let bitmap = Bitmap::new(&*builder.image(path, raw)?, filter, wrap);
+    let image = builder.image(path, raw)?;
+    let bitmap = Bitmap::new(image.width, &image.pixels, filter, wrap);
     Ok(Arc::new(Bitmap { coordinates, ..bitmap }))
 }
 
 impl Bitmap {
-    /// A texture from an image in memory.
-    pub fn new(image: &Image, filter: Filter, wrap: Wrap) -> Self {
-        let sum = image.pixels.iter().fold([0.0_f64; 3], |sum, pixel| {
+    /// A texture from linear RGB in memory, in rows of `width` texels.
+    pub fn new(width: usize, pixels: &[[f32; 3]], filter: Filter, wrap: Wrap) -> Self {
+        let sum = pixels.iter().fold([0.0_f64; 3], |sum, pixel| {
             [sum[0] + f64::from(pixel[0]), sum[1] + f64::from(pixel[1]), sum[2] + f64::from(pixel[2])]
         });
-        let mean = sum.map(|channel| (channel / image.pixels.len() as f64) as f32);
+        let mean = sum.map(|channel| (channel / pixels.len() as f64) as f32);
         Self {
-            width: image.width,
-            height: image.height,
-            texels: Texels::new(&image.pixels),
+            width,
+            height: pixels.len() / width,
+            texels: Texels::new(pixels),
             mean: Rgb::from_array(mean),
             filter,
             wrap,
@@ -97,10 +97,10 @@ impl Bitmap {
     #[inline]
     fn fold(&self, x: f32) -> (f32, f32) {
         match self.wrap {
-            Wrap::Repeat => (x - x.floor(), 1.0),
+            Wrap::Repeat => (fraction(x), 1.0),
             Wrap::Clamp => (x.clamp(0.0, 1.0), 1.0),
             Wrap::Mirror => {
-                let x = 2.0 * (0.5 * x - (0.5 * x).floor());
+                let x = 2.0 * fraction(0.5 * x);
                 if x > 1.0 { (2.0 - x, -1.0) } else { (x, 1.0) }
             }
         }
@@ -111,9 +111,8 @@ impl Bitmap {
     fn neighbors(&self, x: f32, count: usize) -> (usize, usize, f32, f32) {
         let (x, sign) = self.fold(x);
         let x = x * count as f32 - 0.5;
-        let below = x.floor();
-        let (low, high) = (below as i32, below as i32 + 1);
-        let last = count as i32 - 1;
+        let (low, high) = (floor(x), floor(x) + 1);
+        let (below, last) = (low as f32, count as i32 - 1);
         let (low, high) = if self.wrap == Wrap::Repeat {
             (if low < 0 { last } else { low }, if high > last { 0 } else { high })
         } else {
@@ -131,6 +130,19 @@ impl Bitmap {
         let corners = [top + left, top + right, bottom + left, bottom + right];
         Quad { corners, x, y, signs: Vec2::new(sign_x, sign_y) }
     }
+}
+
+/// Rounded down; `f32::floor` is a function call on x86-64 without SSE 4.1. The largest numbers saturate.
+#[inline]
+fn floor(x: f32) -> i32 {
+    let truncated = x as i32;
+    truncated.saturating_sub(i32::from((truncated as f32) > x))
+}
+
+/// The fractional part, from 0 to 1.
+#[inline]
+fn fraction(x: f32) -> f32 {
+    (x - floor(x) as f32).clamp(0.0, 1.0)
 }
 
 /// The four texels around a point.

@@ -28,6 +28,7 @@ pub mod bitmap;
 pub mod checkerboard;
 pub mod constant;
 mod coordinates;
+mod exr;
 pub mod image;
 pub(crate) mod slot;
 mod texels;

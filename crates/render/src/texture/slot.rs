@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::Result;
-use crate::geometry::{Rgb, Vec2};
+use crate::geometry::{Rgb, Vec2, luminance};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::texture::Texture;
@@ -44,13 +44,12 @@ impl ColorSlot {
         }
     }
 
-    /// Mean over the unit square and over the channels.
+    /// One number for the mean over the unit square, as Mitsuba 3 takes it: of the channels of a constant, else luminance.
     pub(crate) fn mean(&self) -> f32 {
-        let mean = match self {
-            Self::Constant(color) => *color,
-            Self::Varying(texture) => texture.mean(),
-        };
-        mean.element_sum() / 3.0
+        match self {
+            Self::Constant(color) => color.element_sum() / 3.0,
+            Self::Varying(texture) => luminance(texture.mean()),
+        }
     }
 }
 

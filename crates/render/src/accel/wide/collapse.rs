@@ -3,16 +3,15 @@
 //! Ylitie, Karras and Laine 2017 ("Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 4.2):
 //! `cost(n, i)` is the least cost of representing the subtree of node `n` as a forest of at most `i` wide trees.
 
-use std::collections::BTreeSet;
-
 use obvhs::bvh2::Bvh2;
 
-use super::leaf::{LEAF_WIDTH, Leaf};
-use super::node::{Child, NODE_WIDTH, Node};
+use super::lanes::WIDTH;
+use super::leaf::Leaf;
+use super::node::{Child, Node};
 use crate::accel::TriangleSoup;
 
-/// Cost of testing one inner node, in units of one leaf (measured: see `examples/ray_kernels.rs`).
-const NODE_COST: f32 = 1.0;
+/// Cost of testing one inner node, in units of one leaf. Both are bound by latency; anything from 0.5 to 2 performs about alike.
+const NODE_COST: f32 = 0.5;
 
 /// The wide tree in traversal order.
 pub(super) struct Tree {
@@ -27,9 +26,9 @@ pub(super) struct Tree {
 #[derive(Clone, Copy, Default)]
 struct Plan {
     /// `cost[i]`: as a forest of at most `i + 1` wide trees.
-    cost: [f32; NODE_WIDTH],
+    cost: [f32; WIDTH],
     /// `left[i]`: how many of those trees the left child gets; 0 when one tree fewer is as good.
-    left: [u8; NODE_WIDTH],
+    left: [u8; WIDTH],
     /// Triangles below.
     triangles: u32,
     /// Whether a single tree is a leaf.
@@ -44,7 +43,7 @@ pub(super) fn collapse(bvh: &Bvh2, soup: &TriangleSoup) -> Tree {
     }
     let plans = plan(bvh);
     let mut pending = vec![(0_usize, 0_u32, 1_usize)];
-    let mut children = Vec::with_capacity(NODE_WIDTH);
+    let mut children = Vec::with_capacity(WIDTH);
     while let Some((slot, root, depth)) = pending.pop() {
         tree.depth = tree.depth.max(depth);
         children.clear();
@@ -52,12 +51,13 @@ pub(super) fn collapse(bvh: &Bvh2, soup: &TriangleSoup) -> Tree {
             children.push(root); // a scene of one triangle
         } else {
             let first = bvh.nodes[root as usize].first_index;
-            let left = usize::from(plans[root as usize].left[NODE_WIDTH - 1]);
+            let left = usize::from(plans[root as usize].left[WIDTH - 1]);
             gather(bvh, &plans, first, left, &mut children);
-            gather(bvh, &plans, first + 1, NODE_WIDTH - left, &mut children);
+            gather(bvh, &plans, first + 1, WIDTH - left, &mut children);
         }
+        // The occlusion test visits the last child first: the largest is the likeliest to be hit.
         let area = |n: &u32| bvh.nodes[*n as usize].aabb().half_area();
-        children.sort_by(|a, b| area(b).total_cmp(&area(a)));
+        children.sort_by(|a, b| area(a).total_cmp(&area(b)));
         for (i, &n) in children.iter().enumerate() {
             let child = if plans[n as usize].leaf {
                 tree.leaves.push(leaf(bvh, soup, n));
@@ -90,7 +90,7 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
         let node = &bvh.nodes[n as usize];
         let area = node.aabb().half_area();
         plans[n as usize] = if node.is_leaf() {
-            Plan { cost: [area; NODE_WIDTH], left: [0; NODE_WIDTH], triangles: node.prim_count, leaf: true }
+            Plan { cost: [area; WIDTH], left: [0; WIDTH], triangles: node.prim_count, leaf: true }
         } else {
             let first = node.first_index as usize;
             plan_inner(area, &plans[first], &plans[first + 1])
@@ -101,8 +101,8 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
 
 fn plan_inner(area: f32, left: &Plan, right: &Plan) -> Plan {
     let mut plan = Plan { triangles: left.triangles + right.triangles, ..Plan::default() };
-    let mut distribute = [f32::INFINITY; NODE_WIDTH];
-    for trees in 2..=NODE_WIDTH {
+    let mut distribute = [f32::INFINITY; WIDTH];
+    for trees in 2..=WIDTH {
         for k in 1..trees {
             let cost = left.cost[k - 1] + right.cost[trees - k - 1];
             if cost < distribute[trees - 1] {
@@ -111,13 +111,13 @@ fn plan_inner(area: f32, left: &Plan, right: &Plan) -> Plan {
             }
         }
     }
-    let inner = distribute[NODE_WIDTH - 1] + area * NODE_COST;
-    plan.leaf = plan.triangles as usize <= LEAF_WIDTH && area <= inner;
+    let inner = distribute[WIDTH - 1] + area * NODE_COST;
+    plan.leaf = plan.triangles as usize <= WIDTH && area <= inner;
     plan.cost[0] = if plan.leaf { area } else { inner };
-    for i in 1..NODE_WIDTH {
+    for i in 1..WIDTH {
         plan.cost[i] = distribute[i].min(plan.cost[i - 1]);
         // The full width is kept: a node that is opened always distributes.
-        if plan.cost[i - 1] <= distribute[i] && i + 1 < NODE_WIDTH {
+        if plan.cost[i - 1] <= distribute[i] && i + 1 < WIDTH {
             plan.left[i] = 0;
         }
     }
@@ -140,9 +140,9 @@ fn gather(bvh: &Bvh2, plans: &[Plan], n: u32, mut trees: usize, children: &mut V
     }
 }
 
-/// The leaf that holds all triangles below `n`, each once.
+/// The leaf that holds all triangles below `n`.
 fn leaf(bvh: &Bvh2, soup: &TriangleSoup, n: u32) -> Leaf {
-    let mut triangles = BTreeSet::new(); // split triangles may meet again in one leaf
+    let mut triangles = Vec::with_capacity(WIDTH);
     let mut pending = vec![n];
     while let Some(n) = pending.pop() {
         let node = &bvh.nodes[n as usize];

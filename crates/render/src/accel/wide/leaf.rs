@@ -1,27 +1,23 @@
-//! Leaves: a few triangles in structure-of-arrays layout, tested all at once.
+//! Leaves: up to eight triangles in structure-of-arrays layout, tested all at once.
 #![allow(unsafe_code)] // loads from raw lanes; CPU features are promised by the caller
 
-use super::lanes::{Lanes, splat3};
-use super::triangle::Shear;
+use super::lanes::{Lanes, WIDTH, splat3};
+use super::triangle::{Meeting, Shear};
 
-/// Triangles per leaf.
-pub(super) const LEAF_WIDTH: usize = 4;
-
-/// Up to [`LEAF_WIDTH`] triangles. Empty lanes are NaN, which no comparison lets through.
+/// Up to [`WIDTH`] triangles. Empty lanes are NaN, which no comparison lets through.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(super) struct Leaf {
     /// `coordinates[axis][vertex][lane]`: the axis comes first because a ray permutes the axes.
-    coordinates: [[[f32; LEAF_WIDTH]; 3]; 3],
+    coordinates: [[[f32; WIDTH]; 3]; 3],
     /// Indices into the list of triangles.
-    pub(super) triangles: [u32; LEAF_WIDTH],
+    pub(super) triangles: [u32; WIDTH],
 }
 
 impl Leaf {
-    /// At most [`LEAF_WIDTH`] triangles: index and vertices.
+    /// At most [`WIDTH`] triangles: index and vertices.
     pub(super) fn new(triangles: impl Iterator<Item = (u32, [[f32; 3]; 3])>) -> Self {
-        let mut leaf =
-            Self { coordinates: [[[f32::NAN; LEAF_WIDTH]; 3]; 3], triangles: [u32::MAX; LEAF_WIDTH] };
+        let mut leaf = Self { coordinates: [[[f32::NAN; WIDTH]; 3]; 3], triangles: [u32::MAX; WIDTH] };
         for (lane, (index, vertices)) in triangles.enumerate() {
             leaf.triangles[lane] = index;
             for (vertex, position) in vertices.iter().enumerate() {
@@ -34,8 +30,14 @@ impl Leaf {
     }
 
     /// The vertices of one triangle.
+    #[inline(always)]
     pub(super) fn vertices(&self, lane: usize) -> [[f32; 3]; 3] {
-        [0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| self.coordinates[axis][vertex][lane]))
+        let [x, y, z] = &self.coordinates;
+        [
+            [x[0][lane], y[0][lane], z[0][lane]],
+            [x[1][lane], y[1][lane], z[1][lane]],
+            [x[2][lane], y[2][lane], z[2][lane]],
+        ]
     }
 }
 
@@ -72,9 +74,9 @@ impl<L: Lanes> LeafRay<L> {
         [x, y, z]
     }
 
-    /// The lanes hit at `0 < t <= t_max`, and `t` in those lanes.
+    /// The lanes hit at `0 < t <= t_max`.
     #[inline(always)]
-    pub(super) fn test(&self, leaf: &Leaf, t_max: L) -> (u32, L) {
+    pub(super) fn test(&self, leaf: &Leaf, t_max: L) -> LaneHits<L> {
         let a = self.apply(leaf, 0);
         let b = self.apply(leaf, 1);
         let c = self.apply(leaf, 2);
@@ -87,35 +89,52 @@ impl<L: Lanes> LeafRay<L> {
         let highest = u.max(v).max(w);
         let inside = self.zero.le(lowest) | highest.le(self.zero);
         if inside == 0 {
-            return (0, self.zero);
+            return LaneHits { mask: 0, t: u, v, w, determinant: u };
         }
-        let determinant = u.add(v).add(w);
+        let zeros = u.eq(self.zero) | v.eq(self.zero) | w.eq(self.zero);
+        if inside & zeros != 0 {
+            return self.exact(leaf, inside, t_max);
+        }
         let scale = self.scale[2];
+        let determinant = u.add(v).add(w);
         let depth = u.mul(scale.mul(a[2])).add(v.mul(scale.mul(b[2]))).add(w.mul(scale.mul(c[2])));
         let t = depth.div(determinant);
-        // A zero determinant gives NaN or an infinity, which ends here.
-        let hit = inside & t.gt(self.zero) & t.le(t_max);
-        let zeros = u.eq(self.zero) | v.eq(self.zero) | w.eq(self.zero);
-        if inside & zeros == 0 { (hit, t) } else { self.exact(leaf, inside, t_max) }
+        LaneHits { mask: inside & t.gt(self.zero) & t.le(t_max), t, v, w, determinant }
     }
 
     /// The same, one triangle at a time with exact signs.
     #[cold]
     #[inline(never)]
-    fn exact(&self, leaf: &Leaf, lanes: u32, t_max: L) -> (u32, L) {
-        let (mut hit, mut ts) = (0, [0.0; 8]);
+    fn exact(&self, leaf: &Leaf, lanes: u32, t_max: L) -> LaneHits<L> {
+        let (mut mask, mut rows) = (0, [[0.0; WIDTH]; 4]);
         let t_max = t_max.to_array()[0];
-        for lane in 0..L::WIDTH {
+        for lane in 0..WIDTH {
             if lanes >> lane & 1 == 1
-                && let Some([t, _, _]) = self.shear.meet(leaf.vertices(lane))
-                && t > 0.0
-                && t <= t_max
+                && let Some(meeting) = self.shear.meet(leaf.vertices(lane))
+                && meeting.t > 0.0
+                && meeting.t <= t_max
             {
-                hit |= 1 << lane;
-                ts[lane] = t;
+                mask |= 1 << lane;
+                let Meeting { t, v, w, determinant } = meeting;
+                for (row, x) in rows.iter_mut().zip([t, v, w, determinant]) {
+                    row[lane] = x;
+                }
             }
         }
-        // SAFETY: `self` holds values of `L`, which prove the CPU; the array has 8 floats.
-        (hit, unsafe { L::load(ts.as_ptr()) })
+        // SAFETY: `self` holds values of `L`, which prove the CPU; each row has all lanes.
+        let load = |row: &[f32; WIDTH]| unsafe { L::load(row.as_ptr()) };
+        let [t, v, w, determinant] = [load(&rows[0]), load(&rows[1]), load(&rows[2]), load(&rows[3])];
+        LaneHits { mask, t, v, w, determinant }
     }
+}
+
+/// What a leaf test finds, lane by lane; only the lanes of `mask` mean anything.
+pub(super) struct LaneHits<L> {
+    pub(super) mask: u32,
+    /// Ray parameter.
+    pub(super) t: L,
+    /// Edge functions: barycentric weights of the second and third vertex, times the determinant.
+    pub(super) v: L,
+    pub(super) w: L,
+    pub(super) determinant: L,
 }

@@ -1,11 +1,8 @@
 //! Inner nodes: eight child boxes tested at once against one ray.
 #![allow(unsafe_code)] // loads from raw lanes; CPU features are promised by the caller
 
-use super::lanes::{Lanes, splat3};
+use super::lanes::{Lanes, WIDTH, splat3};
 use crate::geometry::{Ray, Vec3};
-
-/// Children per node.
-pub(super) const NODE_WIDTH: usize = 8;
 
 /// What a node's child is: an inner node, or a leaf when [`Child::LEAF`] is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,22 +36,22 @@ impl Child {
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// Lower x, upper x, lower y, upper y, lower z, upper z of all children.
-    planes: [[f32; NODE_WIDTH]; 6],
+    planes: [[f32; WIDTH]; 6],
     /// What the boxes hold.
-    pub(super) children: [Child; NODE_WIDTH],
+    pub(super) children: [Child; WIDTH],
 }
 
 impl Node {
     pub(super) const EMPTY: Self = Self {
         planes: [
-            [f32::INFINITY; NODE_WIDTH],
-            [f32::NEG_INFINITY; NODE_WIDTH],
-            [f32::INFINITY; NODE_WIDTH],
-            [f32::NEG_INFINITY; NODE_WIDTH],
-            [f32::INFINITY; NODE_WIDTH],
-            [f32::NEG_INFINITY; NODE_WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
         ],
-        children: [Child(0); NODE_WIDTH],
+        children: [Child(0); WIDTH],
     };
 
     pub(super) fn set(&mut self, slot: usize, lower: [f32; 3], upper: [f32; 3], child: Child) {
@@ -68,20 +65,23 @@ impl Node {
 
 /// A ray prepared for the slab test, conservative against rounding.
 ///
-/// `(plane - origin) / direction` carries at most three roundings, so scaling by `1 ± 2⁻²⁰` leaves more room than the
-/// `1 + 2γ(3)` of Ize 2013 ("Robust BVH Ray Traversal", JCGT 2(2)), and covers the few roundings of the sheared vertices too.
-/// Where a direction component is (almost) zero its inverse is capped, and the slab grows by a margin that outweighs the
-/// cap over the whole scene; thus a ray that lies in a plane of a box is inside, and no 0·∞ ever arises.
+/// `(plane - origin) / direction` carries at most three roundings, so growing the far distances by `1 + 2⁻²⁰` leaves more
+/// room than the `1 + 2γ(3)` of Ize 2013 ("Robust BVH Ray Traversal", JCGT 2(2)), and covers the few roundings of the sheared
+/// vertices too. Where a direction component is (almost) zero its inverse is capped, and the slab grows by a margin that
+/// outweighs the cap over the whole scene; thus a ray that lies in a plane of a box is inside, and no 0·∞ ever arises.
 pub(super) struct SlabRay<L> {
     origin: [L; 3],
-    inverse_near: [L; 3],
+    inverse: [L; 3],
     inverse_far: [L; 3],
-    margin_near: [L; 3],
-    margin_far: [L; 3],
+    margin: [L; 3],
+    grow: L,
+    zero: L,
     /// Which of `planes` comes first on each axis, as the ray flies.
     near: [usize; 3],
-    zero: L,
 }
+
+/// How much distances grow so that no rounding cuts off a box.
+pub(super) const GROW: f32 = 1.0 + 1.0 / (1 << 20) as f32;
 
 impl<L: Lanes> SlabRay<L> {
     /// `extent` bounds the absolute value of all coordinates of the scene.
@@ -91,7 +91,6 @@ impl<L: Lanes> SlabRay<L> {
     #[inline(always)]
     pub(super) unsafe fn new(ray: &Ray, extent: f32) -> Self {
         const CAP: f32 = (1_u64 << 40) as f32;
-        const ROOM: f32 = 1.0 / (1 << 20) as f32;
         let steepest = ray.direction.abs().max_element();
         // Within the scene t · steepest stays below 2 · reach, hence the capped ray strays by less than 2 · reach / CAP.
         let reach = extent + ray.origin.abs().max_element();
@@ -102,26 +101,32 @@ impl<L: Lanes> SlabRay<L> {
         unsafe {
             Self {
                 origin: splat3(ray.origin.to_array()),
-                inverse_near: splat3((inverse * (1.0 - ROOM)).to_array()),
-                inverse_far: splat3((inverse * (1.0 + ROOM)).to_array()),
-                margin_near: splat3((-margin).to_array()),
-                margin_far: splat3(margin.to_array()),
+                inverse: splat3(inverse.to_array()),
+                inverse_far: splat3((inverse * GROW).to_array()),
+                margin: splat3(margin.to_array()),
+                grow: L::splat(GROW),
+                zero: L::splat(0.0),
                 near: [
                     usize::from(inverse.x < 0.0),
                     2 + usize::from(inverse.y < 0.0),
                     4 + usize::from(inverse.z < 0.0),
                 ],
-                zero: L::splat(0.0),
             }
         }
     }
 
-    /// The children whose boxes the ray meets at `0 <= t <= t_max`, and where it enters them.
+    /// How far the slab test must look so that no box with a hit at `t_max` is missed.
     #[inline(always)]
-    pub(super) fn test(&self, node: &Node, t_max: L) -> (u32, L) {
+    pub(super) fn reach(&self, t_max: L) -> L {
+        t_max.mul(self.grow)
+    }
+
+    /// The children whose boxes the ray meets within `0 <= t <= reach`, and where it enters them.
+    #[inline(always)]
+    pub(super) fn test(&self, node: &Node, reach: L) -> (u32, L) {
         let (x, y, z) = (self.slab(node, 0), self.slab(node, 1), self.slab(node, 2));
         let entry = x.0.max(y.0).max(z.0.max(self.zero));
-        let exit = x.1.min(y.1).min(z.1.min(t_max));
+        let exit = x.1.min(y.1).min(z.1.min(reach));
         (entry.le(exit), entry)
     }
 
@@ -135,8 +140,8 @@ impl<L: Lanes> SlabRay<L> {
             (L::load(planes.get_unchecked(near).as_ptr()), L::load(planes.get_unchecked(near ^ 1).as_ptr()))
         };
         (
-            near.sub(self.origin[axis]).mul_add(self.inverse_near[axis], self.margin_near[axis]),
-            far.sub(self.origin[axis]).mul_add(self.inverse_far[axis], self.margin_far[axis]),
+            near.sub(self.origin[axis]).mul_sub(self.inverse[axis], self.margin[axis]),
+            far.sub(self.origin[axis]).mul_add(self.inverse_far[axis], self.margin[axis]),
         )
     }
 }

@@ -4,9 +4,9 @@
 use std::mem::MaybeUninit;
 
 use super::collapse::Tree;
-use super::lanes::Lanes;
+use super::lanes::{Lanes, WIDTH};
 use super::leaf::LeafRay;
-use super::node::{Child, NODE_WIDTH, SlabRay};
+use super::node::{Child, GROW, SlabRay};
 use super::triangle::Shear;
 use crate::accel::TriangleHit;
 use crate::geometry::Ray;
@@ -56,7 +56,7 @@ impl Stack<'_> {
 
 /// Stack entries that a tree of this depth may need.
 pub(super) fn stack_len(depth: usize) -> usize {
-    depth * NODE_WIDTH + 1
+    depth * WIDTH + 1
 }
 
 #[inline(always)]
@@ -67,9 +67,9 @@ fn pack(distance: f32, child: Child) -> u64 {
 /// The first triangle with `0 < t < ray.t_max`; of several at the same distance, the one of lowest index.
 ///
 /// # Safety
-/// The CPU must support `N` and `L`; the stack must hold [`stack_len`] entries.
+/// The CPU must support `L`; the stack must hold [`stack_len`] entries.
 #[inline(always)]
-pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
+pub(super) unsafe fn closest<L: Lanes>(
     tree: &Tree,
     extent: f32,
     ray: &Ray,
@@ -77,18 +77,18 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
 ) -> Option<TriangleHit> {
     // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
     unsafe {
-        let slabs = SlabRay::<N>::new(ray, extent);
-        let shear = Shear::new(ray);
-        let triangles = LeafRay::<L>::new(shear);
+        let slabs = SlabRay::<L>::new(ray, extent);
+        let triangles = LeafRay::<L>::new(Shear::new(ray));
         let mut stack = Stack { entries: stack, len: 0 };
         let mut best = ray.t_max;
-        let mut found: Option<(u32, usize, usize)> = None;
-        let mut node_reach = N::splat(best);
+        let mut found = TriangleHit { t: best, u: 0.0, v: 0.0, triangle: 0 };
+        let mut determinant = 0.0; // nothing found yet
+        let mut reach = slabs.reach(L::splat(best));
         let mut current = Child::node(0);
         'visit: loop {
             while !current.is_leaf() {
                 let node = tree.nodes.get_unchecked(current.index());
-                let (mut mask, entry) = slabs.test(node, node_reach);
+                let (mut mask, entry) = slabs.test(node, reach);
                 if mask == 0 {
                     match next(&mut stack, best) {
                         Some(child) => current = child,
@@ -125,29 +125,40 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
                 current = Child(stack.pop().unwrap_unchecked() as u32);
             }
             let leaf = tree.leaves.get_unchecked(current.index());
-            let (mut hits, t) = triangles.test(leaf, L::splat(best));
-            if hits != 0 {
-                let distances = t.to_array();
-                while hits != 0 {
-                    let lane = hits.trailing_zeros() as usize;
-                    hits &= hits - 1;
+            let mut hits = triangles.test(leaf, L::splat(best));
+            if hits.mask != 0 {
+                let distances = hits.t.to_array();
+                let mut winner = None;
+                while hits.mask != 0 {
+                    let lane = hits.mask.trailing_zeros() as usize;
+                    hits.mask &= hits.mask - 1;
                     let t = *distances.get_unchecked(lane);
                     let triangle = *leaf.triangles.get_unchecked(lane);
-                    if t < best || (t == best && found.is_some_and(|(other, _, _)| triangle < other)) {
+                    // No hit was found while `found.triangle` is 0, so that t_max itself never counts.
+                    if t < best || (t == best && triangle < found.triangle) {
                         best = t;
-                        found = Some((triangle, current.index(), lane));
+                        found.triangle = triangle;
+                        winner = Some(lane);
                     }
                 }
-                node_reach = N::splat(best);
+                if let Some(lane) = winner {
+                    found.t = best;
+                    found.u = *hits.v.to_array().get_unchecked(lane);
+                    found.v = *hits.w.to_array().get_unchecked(lane);
+                    determinant = *hits.determinant.to_array().get_unchecked(lane);
+                }
+                reach = slabs.reach(L::splat(best));
             }
             match next(&mut stack, best) {
                 Some(child) => current = child,
                 None => break,
             }
         }
-        let (triangle, leaf, lane) = found?;
-        let [_, u, v] = shear.meet(tree.leaves[leaf].vertices(lane))?;
-        Some(TriangleHit { t: best, u, v, triangle })
+        (determinant != 0.0).then(|| TriangleHit {
+            u: found.u / determinant,
+            v: found.v / determinant,
+            ..found
+        })
     }
 }
 
@@ -156,7 +167,7 @@ pub(super) unsafe fn closest<N: Lanes, L: Lanes>(
 fn next(stack: &mut Stack, best: f32) -> Option<Child> {
     loop {
         let entry = stack.pop()?;
-        if f32::from_bits((entry >> 32) as u32) <= best {
+        if f32::from_bits((entry >> 32) as u32) <= best * GROW {
             return Some(Child(entry as u32));
         }
     }
@@ -165,9 +176,9 @@ fn next(stack: &mut Stack, best: f32) -> Option<Child> {
 /// Whether any triangle lies at `0 < t < ray.t_max`. The order of visits does not matter, so nothing is sorted.
 ///
 /// # Safety
-/// The CPU must support `N` and `L`; the stack must hold [`stack_len`] entries.
+/// The CPU must support `L`; the stack must hold [`stack_len`] entries.
 #[inline(always)]
-pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
+pub(super) unsafe fn occluded<L: Lanes>(
     tree: &Tree,
     extent: f32,
     ray: &Ray,
@@ -175,24 +186,31 @@ pub(super) unsafe fn occluded<N: Lanes, L: Lanes>(
 ) -> bool {
     // SAFETY: the caller promises the CPU and the stack; children index nodes and leaves of the same tree.
     unsafe {
-        let slabs = SlabRay::<N>::new(ray, extent);
+        let slabs = SlabRay::<L>::new(ray, extent);
         let triangles = LeafRay::<L>::new(Shear::new(ray));
         let mut stack = Stack { entries: stack, len: 0 };
-        let reach = N::splat(ray.t_max);
-        let leaf_reach = L::splat(ray.t_max);
+        let t_max = L::splat(ray.t_max);
+        let reach = slabs.reach(t_max);
         let mut current = Child::node(0);
         loop {
             if current.is_leaf() {
-                let (hits, t) = triangles.test(tree.leaves.get_unchecked(current.index()), leaf_reach);
-                if hits & leaf_reach.gt(t) != 0 {
+                let hits = triangles.test(tree.leaves.get_unchecked(current.index()), t_max);
+                if hits.mask & t_max.gt(hits.t) != 0 {
                     return true;
                 }
             } else {
                 let node = tree.nodes.get_unchecked(current.index());
                 let (mut mask, _) = slabs.test(node, reach);
-                while mask != 0 {
-                    stack.push(u64::from(node.children.get_unchecked(mask.trailing_zeros() as usize).0));
-                    mask &= mask - 1;
+                if mask != 0 {
+                    // Children are sorted by area: the last is the likeliest to be hit.
+                    let last = mask.ilog2();
+                    mask ^= 1 << last;
+                    while mask != 0 {
+                        stack.push(u64::from(node.children.get_unchecked(mask.trailing_zeros() as usize).0));
+                        mask &= mask - 1;
+                    }
+                    current = *node.children.get_unchecked(last as usize);
+                    continue;
                 }
             }
             match stack.pop() {

@@ -16,6 +16,17 @@ pub(super) struct Shear {
     pub(super) origin: [f32; 3],
 }
 
+/// Where a line meets a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// Ray parameter.
+    pub(super) t: f32,
+    /// Edge functions: barycentric weights of the second and third vertex, times the determinant.
+    pub(super) v: f32,
+    pub(super) w: f32,
+    pub(super) determinant: f32,
+}
+
 impl Shear {
     /// Both faces count, so the permutation need not keep the winding.
     #[inline(always)]
@@ -43,16 +54,16 @@ impl Shear {
         [x, y, z]
     }
 
-    /// The ray parameter and the barycentric weights of the second and third vertex, wherever the line meets the triangle.
-    pub(super) fn meet(&self, triangle: [[f32; 3]; 3]) -> Option<[f32; 3]> {
-        let [a, b, c] = triangle.map(|vertex| self.apply(vertex));
+    /// Where the whole line meets a triangle, if it does.
+    pub(super) fn meet(&self, triangle: [[f32; 3]; 3]) -> Option<Meeting> {
+        let (a, b, c) = (self.apply(triangle[0]), self.apply(triangle[1]), self.apply(triangle[2]));
         let mut edges = [c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]];
         if edges.contains(&0.0) {
             // Products of two f32 are exact in f64, so these signs are too; neighbors see exactly opposite ones.
             let exact = |p: [f32; 3], q: [f32; 3]| {
                 f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0])
             };
-            edges = [exact(c, b), exact(a, c), exact(b, a)].map(|edge| edge as f32);
+            edges = [exact(c, b) as f32, exact(a, c) as f32, exact(b, a) as f32];
         }
         let [u, v, w] = edges;
         let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
@@ -61,6 +72,6 @@ impl Shear {
             return None;
         }
         let depth = (u * (self.scale[2] * a[2]) + v * (self.scale[2] * b[2])) + w * (self.scale[2] * c[2]);
-        Some([depth / determinant, v / determinant, w / determinant])
+        Some(Meeting { t: depth / determinant, v, w, determinant })
     }
 }
