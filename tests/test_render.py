@@ -67,7 +67,7 @@ def judge(film: evenlight.Film, expected: NDArray[np.float64]) -> None:
     # replicates of few, well-spread points are far from normal, so that the tail says little about single pixels.)
     noisy = film.standard_error[..., 0] > 1e-5 * expected[..., 0]
     outside = np.abs(film.color - expected)[..., 0] > stats.t.ppf(0.975, REPLICATES - 1) * film.standard_error[..., 0]
-    pixels = max(1, np.count_nonzero(noisy))
+    pixels = max(1, int(np.count_nonzero(noisy)))
     assert outside[noisy].sum() / pixels <= 0.05 + 5 * np.sqrt(0.05 * 0.95 / pixels)
     np.testing.assert_allclose(film.color[~noisy], expected[~noisy], rtol=1e-4)
 

@@ -1,5 +1,7 @@
 //! The door between the Rust core and Python: conversions only, no mathematics.
 
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 gives away what it converts")]
+
 mod errors;
 mod output;
 mod points;

@@ -51,8 +51,8 @@ pub fn write_png(
 
 /// The sRGB transfer function of IEC 61966-2-1, rounded to 8 bits.
 fn encode_srgb(linear: f32) -> u8 {
-    // `max` returns the other argument for a NaN, so that NaN is black.
-    let linear = linear.max(0.0).min(1.0);
+    // NaN passes through all of this and becomes 0 as an integer: black.
+    let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8
 }
