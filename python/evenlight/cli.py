@@ -170,7 +170,7 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     add("--max-depth", type=int, help="longest path in segments; -1: no limit (as the scene says)")
     add("--size", type=_size, metavar="WxH", help="pixels (as the scene says)")
     add("--filter", choices=_core.filters(), help="pixel filter (as the scene says)")
-    add("--mis", choices=["power", "balance"], default="power", help="weighting heuristic (%(default)s)")
+    add("--mis", choices=_core.heuristics(), default="power", help="weighting heuristic (%(default)s)")
     add("--exposure", type=float, default=0.0, help="stops by which a PNG is brightened (%(default)s)")
     add("--quiet", action="store_true", help="no progress bar, no summary")
     parser.set_defaults(run=_render)
@@ -192,7 +192,7 @@ def _add_scene(parser: argparse.ArgumentParser) -> None:
     add("--allow-outside", action="store_true", help="allow files outside the scene's folder")
     add(
         "--kernel",
-        choices=["auto", "embree", "wide"],
+        choices=_core.kernels(),
         default="auto",
         help="what intersects rays (%(default)s)",
     )
