@@ -21,9 +21,6 @@ const TILE: u32 = 16;
 /// How long the caller waits for tiles before it is asked again whether to go on.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// Samples of a pixel between two looks at whether to stop.
-const STOP_INTERVAL: u32 = 256;
-
 /// Plain settings of a render.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -82,6 +79,9 @@ impl std::fmt::Debug for Film {
         write!(f, "Film({}x{}, {} replicates)", self.width, self.height, self.replicates)
     }
 }
+
+/// Samples of a pixel between two looks at whether to stop.
+const STOP_INTERVAL: u32 = 256;
 
 /// Everything that a pixel needs, checked and built.
 struct Job<'a> {
