@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,8 @@ from typing import Any
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from conftest import ROOT
+from evenlight import _core, points
 
 # What each crate of ours may use of the others.
 ARROWS: dict[str, set[str]] = {
@@ -19,6 +21,27 @@ ARROWS: dict[str, set[str]] = {
     "evenlight-python": {"evenlight-points", "evenlight-render"},
 }
 PYTHON_ONLY = {"pyo3", "numpy"}
+
+
+FAMILIES: dict[str, list[str]] = {
+    "points/src/sequences": [info.name for info in points.available()],
+    "points/src/scramble": _core.scrambles(),
+    "render/src/bsdf": _core.bsdfs(),
+    "render/src/emitter": _core.emitters(),
+    "render/src/filter": _core.filters(),
+    "render/src/integrator": _core.integrators(),
+    "render/src/sampler": _core.samplers(),
+    "render/src/sensor": _core.sensors(),
+    "render/src/shape": _core.shapes(),
+    "render/src/texture": _core.textures(),
+}
+# Members that are another member in a special case.
+SPECIAL_CASES = {
+    ("catmullrom", "mitchell"),  # with B = 0 and C = 1/2
+    ("halton", "independent"),  # beyond the last prime
+    ("orthographic", "perspective"),  # the same clip planes
+    ("thinlens", "perspective"),  # with a lens
+}
 
 
 @pytest.fixture(scope="module")
@@ -69,3 +92,14 @@ def test_python_modules_use_only_the_modules_they_may() -> None:
     command = [str(Path(sys.executable).with_name("lint-imports")), "--no-cache"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("folder", FAMILIES)
+def test_members_of_a_family_do_not_import_each_other(folder: str) -> None:
+    names = set(FAMILIES[folder])
+    family = Path(folder).name
+    for name in names:
+        text = (ROOT / "crates" / folder / f"{name}.rs").read_text(encoding="utf-8")
+        imported = re.findall(rf"\b(?:super|{family})::(\w+|\{{[^}}]*\}})", text)
+        siblings = names.intersection(re.findall(r"\w+", " ".join(imported))) - {name}
+        assert {(name, sibling) for sibling in siblings} <= SPECIAL_CASES
