@@ -35,6 +35,8 @@ impl Integrator for Path {
         let mut origin = Origin { position: ray.origin, density: f32::INFINITY };
         let mut depth = 0;
         loop {
+            let chosen = numbers.bounce(depth);
+            scene.prefetch_light(chosen.light_choice, chosen.light);
             let hit = scene.world.intersect(&ray);
             if depth > 0 || !self.0.hide_emitters {
                 measurement.radiance += throughput * self.emission(scene, &ray, hit.as_ref(), &origin);
@@ -51,7 +53,6 @@ impl Integrator for Path {
             }
 
             // Next-event estimation.
-            let chosen = numbers.bounce(depth);
             if vertex.smooth {
                 measurement.radiance += throughput * self.direct(scene, &vertex, &chosen);
             }

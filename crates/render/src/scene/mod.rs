@@ -72,10 +72,8 @@ impl Environment {
     #[inline]
     pub(crate) fn seen(&self, direction: Vec3) -> Seen {
         let hit = EmitterHit { position: Vec3::ZERO, normal: Vec3::ZERO, uv: glam::Vec2::ZERO, direction };
-        Seen {
-            radiance: self.emitter.radiance(&hit),
-            density: self.emitter.density(Vec3::ZERO, &hit) * self.probability,
-        }
+        let (radiance, density) = self.emitter.evaluate(Vec3::ZERO, &hit);
+        Seen { radiance, density: density * self.probability }
     }
 }
 
@@ -95,6 +93,14 @@ impl Scene {
             radiance,
             density: light.density(from, &hit) * self.selection.probability(emitter as usize),
         })
+    }
+
+    /// Have fetched what [`Scene::sample_light`] will need for the same numbers.
+    #[inline]
+    pub(crate) fn prefetch_light(&self, choice: f32, u: [f32; 2]) {
+        if let Some((emitter, _)) = self.selection.sample(choice) {
+            self.emitters[emitter].prefetch(u);
+        }
     }
 
     /// Choose a light and a direction towards it.
