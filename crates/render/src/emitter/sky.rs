@@ -1,8 +1,7 @@
 //! The image of an environment map, with a density to sample it by: both in tiles, so that a sample waits for memory once.
 //!
 //! Cells lie between texel centers. A cell is chosen by inversion, so that stratified points stay stratified, in two levels: tiles of
-//! 8×8 cells through cumulative sums with guide tables (Chen & Asau 1974, "On Generating Random Variates from an Empirical
-//! Distribution") that stay in the cache, then a cell of the tile, whose weights and texels lie together. With one search over
+//! 8×8 cells through small search trees that stay in the cache, then a cell of the tile, whose weights and texels lie together. With one search over
 //! all cells and a separate image, a third of a frame went by waiting for memory.
 
 use crate::geometry::{Rgb, luminance};
@@ -131,8 +130,8 @@ impl Sky {
     pub(crate) fn sample(&self, u: [f32; 2]) -> SkyPoint {
         let ([column, line], [within_x, within_y]) = self.choose_tile(u);
         let weights = &self.tiles[line * self.columns + column].weights;
-        let (y, fraction_y) = choose(&weights.map(|row| row.iter().sum()), within_y);
-        let (x, fraction_x) = choose(&weights[y], within_x);
+        let (y, fraction_y) = invert(&running_sums(weights.map(|row| row.iter().sum())), within_y);
+        let (x, fraction_x) = invert(&running_sums(weights[y]), within_x);
         SkyPoint { cell: [column * SIDE + x, line * SIDE + y], fraction: [fraction_x, fraction_y] }
     }
 }
@@ -172,73 +171,77 @@ fn from_half(half: u16) -> f32 {
 /// Largest number below 1.
 const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
-/// Invert a handful of weights.
+/// Sums up to and including each number.
 #[inline]
-fn choose(weights: &[f32; SIDE], u: f32) -> (usize, f32) {
-    let mut target = u * weights.iter().sum::<f32>();
-    let mut chosen = 0;
-    for (i, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-        chosen = i;
-        if target < weight {
-            break;
-        }
-        target -= weight;
+fn running_sums(mut numbers: [f32; SIDE]) -> [f32; SIDE] {
+    for i in 1..SIDE {
+        numbers[i] += numbers[i - 1];
     }
-    // rounding may leave a little more than the last weight
-    (chosen, (target / weights[chosen].max(f32::MIN_POSITIVE)).clamp(0.0, BELOW_ONE))
+    numbers
 }
 
-/// A piecewise-constant density over equally long intervals.
+/// Children of a node of the search tree: compared all at once.
+const FAN: usize = 16;
+
+/// A piecewise-constant density over equally long intervals, as a search tree without branches to mispredict.
 struct Inversion {
-    /// Sum of the weights up to and including each interval.
-    cumulative: Vec<f32>,
-    /// The interval in which each of as many equal parts of the total begins.
-    guide: Vec<u16>,
+    count: usize,
+    /// From the root to the leaves: sums of weights up to and including each child, within each node.
+    levels: Vec<Vec<[f32; FAN]>>,
 }
 
 impl Inversion {
     fn new(weights: impl Iterator<Item = f32>) -> Self {
-        let mut sum = 0.0_f64;
-        let cumulative = weights.map(|weight| {
-            sum += f64::from(weight);
-            sum as f32
-        });
-        let cumulative: Vec<f32> = cumulative.collect();
-        let count = cumulative.len();
-        let mut interval = 0;
-        let guide = (0..count).map(|part| {
-            let target = part as f32 / count as f32 * cumulative[count - 1];
-            while interval + 1 < count && cumulative[interval] <= target {
-                interval += 1;
+        let mut weights: Vec<f64> = weights.map(f64::from).collect();
+        let count = weights.len();
+        let mut levels = Vec::new();
+        loop {
+            let mut sums = Vec::with_capacity(weights.len().div_ceil(FAN));
+            let node = |children: &[f64]| {
+                let mut sum = 0.0;
+                let cumulative = std::array::from_fn(|i| {
+                    sum += children.get(i).copied().unwrap_or(0.0);
+                    sum as f32
+                });
+                sums.push(sum);
+                cumulative
+            };
+            levels.push(weights.chunks(FAN).map(node).collect());
+            weights = sums;
+            if weights.len() <= 1 {
+                levels.reverse();
+                return Self { count, levels };
             }
-            interval as u16
-        });
-        Self { guide: guide.collect(), cumulative }
+        }
     }
 
     #[inline]
     fn total(&self) -> f32 {
-        self.cumulative.last().copied().unwrap_or(0.0)
+        self.levels[0][0][FAN - 1]
     }
 
     /// The chosen interval and where in it, in [0, 1).
     #[inline]
     fn invert(&self, u: f32) -> (usize, f32) {
-        let count = self.cumulative.len();
-        let target = u * self.total();
-        let mut interval = usize::from(self.guide[((u * count as f32) as usize).min(count - 1)]);
-        // rounding may have put the guide one interval too far
-        while interval > 0 && self.cumulative[interval - 1] > target {
-            interval -= 1;
+        let (mut chosen, mut within) = (0, u);
+        for level in &self.levels {
+            let (child, fraction) = invert(&level[chosen], within);
+            (chosen, within) = (chosen * FAN + child, fraction);
         }
-        while interval + 1 < count && self.cumulative[interval] <= target {
-            interval += 1;
-        }
-        let below = if interval == 0 { 0.0 } else { self.cumulative[interval - 1] };
-        let width = self.cumulative[interval] - below;
-        let within = (target - below) / width.max(f32::MIN_POSITIVE);
-        (interval, within.clamp(0.0, BELOW_ONE))
+        (chosen.min(self.count - 1), within)
     }
+}
+
+/// Invert cumulative sums: the chosen interval and where in it.
+#[inline]
+fn invert<const N: usize>(cumulative: &[f32; N], u: f32) -> (usize, f32) {
+    let total = cumulative[N - 1];
+    // rounding must not lead past the last interval with weight
+    let target = (u * total).min(total * BELOW_ONE);
+    let chosen = cumulative.iter().map(|&sum| usize::from(sum <= target)).sum::<usize>().min(N - 1);
+    let below = if chosen == 0 { 0.0 } else { cumulative[chosen - 1] };
+    let weight = (cumulative[chosen] - below).max(f32::MIN_POSITIVE);
+    (chosen, ((target - below) / weight).clamp(0.0, BELOW_ONE))
 }
 
 #[cfg(test)]
