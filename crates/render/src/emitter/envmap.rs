@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::Result;
 use crate::emitter::sky::{Sky, SkyPoint};
 use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
-use crate::geometry::{Mat3A, Rgb, Vec3};
+use crate::geometry::{Mat3A, Rgb, Vec3, sin_cos_turns};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 use crate::texture::image::Image;
@@ -72,9 +72,10 @@ impl Emitter for Envmap {
     fn sample(&self, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
         let [width, rows] = self.sky.cells();
         let point = self.sky.sample(u);
-        let theta = PI * (point.cell[1] as f32 + point.fraction[1]) / rows as f32;
-        let phi = 2.0 * PI * (point.cell[0] as f32 + point.fraction[0] + 0.5) / width as f32;
-        let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+        let (sin_theta, cos_theta) =
+            sin_cos_turns(0.5 * (point.cell[1] as f32 + point.fraction[1]) / rows as f32);
+        let (sin_phi, cos_phi) =
+            sin_cos_turns((point.cell[0] as f32 + point.fraction[0] + 0.5) / width as f32);
         let local = Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
         let density = self.solid_angle_density(&point, sin_theta);
         (density > 0.0).then(|| LightSample {

@@ -130,9 +130,14 @@ impl Sky {
     pub(crate) fn sample(&self, u: [f32; 2]) -> SkyPoint {
         let ([column, line], [within_x, within_y]) = self.choose_tile(u);
         let weights = &self.tiles[line * self.columns + column].weights;
-        let (y, fraction_y) = invert(&running_sums(weights.map(|row| row.iter().sum())), within_y);
-        let (x, fraction_x) = invert(&running_sums(weights[y]), within_x);
-        SkyPoint { cell: [column * SIDE + x, line * SIDE + y], fraction: [fraction_x, fraction_y] }
+        let rows = running_sums(weights.map(|row| row.iter().sum()));
+        let y = Child::at(&rows, within_y * rows[SIDE - 1]);
+        let cells = running_sums(weights[y.number]);
+        let x = Child::at(&cells, within_x * cells[SIDE - 1]);
+        SkyPoint {
+            cell: [column * SIDE + x.number, line * SIDE + y.number],
+            fraction: [fraction(x.rest, x.weight), fraction(y.rest, y.weight)],
+        }
     }
 }
 
@@ -223,25 +228,41 @@ impl Inversion {
     /// The chosen interval and where in it, in [0, 1).
     #[inline]
     fn invert(&self, u: f32) -> (usize, f32) {
-        let (mut chosen, mut within) = (0, u);
+        let mut target = u * self.total();
+        let (mut chosen, mut weight) = (0, 0.0);
         for level in &self.levels {
-            let (child, fraction) = invert(&level[chosen], within);
-            (chosen, within) = (chosen * FAN + child, fraction);
+            let child = Child::at(&level[chosen], target);
+            chosen = chosen * FAN + child.number;
+            (target, weight) = (child.rest, child.weight);
         }
-        (chosen.min(self.count - 1), within)
+        (chosen.min(self.count - 1), fraction(target, weight))
     }
 }
 
-/// Invert cumulative sums: the chosen interval and where in it.
+/// The child of a node in which a target falls.
+struct Child {
+    number: usize,
+    /// The target, from the beginning of the child.
+    rest: f32,
+    weight: f32,
+}
+
+impl Child {
+    #[inline]
+    fn at<const N: usize>(cumulative: &[f32; N], target: f32) -> Self {
+        // rounding must not lead past the last child with weight
+        let target = target.min(cumulative[N - 1] * BELOW_ONE);
+        let before = cumulative.iter().map(|&sum| i32::from(sum <= target)).sum::<i32>();
+        let number = (before as usize).min(N - 1);
+        let below = if number == 0 { 0.0 } else { cumulative[number - 1] };
+        Self { number, rest: target - below, weight: cumulative[number] - below }
+    }
+}
+
+/// `part / whole` in [0, 1).
 #[inline]
-fn invert<const N: usize>(cumulative: &[f32; N], u: f32) -> (usize, f32) {
-    let total = cumulative[N - 1];
-    // rounding must not lead past the last interval with weight
-    let target = (u * total).min(total * BELOW_ONE);
-    let chosen = cumulative.iter().map(|&sum| usize::from(sum <= target)).sum::<usize>().min(N - 1);
-    let below = if chosen == 0 { 0.0 } else { cumulative[chosen - 1] };
-    let weight = (cumulative[chosen] - below).max(f32::MIN_POSITIVE);
-    (chosen, ((target - below) / weight).clamp(0.0, BELOW_ONE))
+fn fraction(part: f32, whole: f32) -> f32 {
+    (part / whole.max(f32::MIN_POSITIVE)).clamp(0.0, BELOW_ONE)
 }
 
 #[cfg(test)]

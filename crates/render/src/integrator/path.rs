@@ -36,7 +36,7 @@ impl Integrator for Path {
         let mut depth = 0;
         loop {
             let chosen = numbers.bounce(depth);
-            scene.prefetch_light(chosen.light_choice, chosen.light);
+            scene.prefetch_light(&chosen);
             let hit = scene.world.intersect(&ray);
             if depth > 0 || !self.0.hide_emitters {
                 measurement.radiance += throughput * self.emission(scene, &ray, hit.as_ref(), &origin);

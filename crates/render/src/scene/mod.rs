@@ -10,6 +10,7 @@ use crate::emitter::{Emitter, EmitterHit, LightSample};
 use crate::film::FilmSettings;
 use crate::geometry::{Ray, Rgb, Vec3};
 use crate::integrator::Transport;
+use crate::sampler::BounceNumbers;
 use crate::scene::node::Node;
 use crate::scene::world::{Hit, World};
 use crate::sensor::Sensor;
@@ -97,9 +98,13 @@ impl Scene {
 
     /// Have fetched what [`Scene::sample_light`] will need for the same numbers.
     #[inline]
-    pub(crate) fn prefetch_light(&self, choice: f32, u: [f32; 2]) {
-        if let Some((emitter, _)) = self.selection.sample(choice) {
-            self.emitters[emitter].prefetch(u);
+    pub(crate) fn prefetch_light(&self, numbers: &BounceNumbers) {
+        // only environments have anything to fetch
+        if self.environments.is_empty() {
+            return;
+        }
+        if let Some((emitter, _)) = self.selection.sample(numbers.light_choice) {
+            self.emitters[emitter].prefetch(numbers.light);
         }
     }
 

@@ -29,14 +29,19 @@ pub struct Hit {
 
 /// All that shading asks of a triangle, in one place: hits are scattered over memory, and each should wait for it once.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(crate) struct ShadingTriangle {
-    pub(crate) shape: u32,
-    pub(crate) position: [f32; 3],
-    pub(crate) edges: [[f32; 3]; 2],
+    shape: u32,
+    /// Whether all normals are the geometric one.
+    flat: bool,
+    geometric_normal: [f32; 3],
+    /// The first corner, and from it to the others.
+    position: [f32; 3],
+    edges: [[f32; 3]; 2],
     /// At the corners; the geometric normal where the mesh has none.
-    pub(crate) normals: [[f32; 3]; 3],
+    normals: [[f32; 3]; 3],
     /// At the corners; barycentric coordinates where the mesh has none.
-    pub(crate) uvs: [[f32; 2]; 3],
+    uvs: [[f32; 2]; 3],
 }
 
 impl ShadingTriangle {
@@ -45,12 +50,17 @@ impl ShadingTriangle {
         let indices = mesh.indices[triangle].map(|index| index as usize);
         let [a, b, c] = indices.map(|index| Vec3::from(mesh.positions[index]));
         let (ab, ac) = (b - a, c - a);
-        let geometric: [f32; 3] = ab.cross(ac).normalize_or(Vec3::Z).into();
+        let geometric_normal: [f32; 3] = ab.cross(ac).normalize_or(Vec3::Z).into();
+        let normals =
+            mesh.normals.as_ref().map_or([geometric_normal; 3], |normals| indices.map(|i| normals[i]));
+        let nearly = |normal: [f32; 3]| Vec3::from(normal).abs_diff_eq(Vec3::from(geometric_normal), 1e-6);
         Self {
             shape,
+            flat: normals.into_iter().all(nearly),
+            geometric_normal,
             position: a.into(),
             edges: [ab.into(), ac.into()],
-            normals: mesh.normals.as_ref().map_or([geometric; 3], |normals| indices.map(|i| normals[i])),
+            normals,
             uvs: mesh
                 .uvs
                 .as_ref()
@@ -62,9 +72,13 @@ impl ShadingTriangle {
     #[inline]
     fn surface(&self, [v, w]: [f32; 2], tangents: bool) -> Surface {
         let (ab, ac) = (Vec3::from(self.edges[0]), Vec3::from(self.edges[1]));
-        let geometric_normal = ab.cross(ac).normalize_or(Vec3::Z);
-        let [na, nb, nc] = self.normals.map(Vec3::from);
-        let normal = (na * (1.0 - v - w) + nb * v + nc * w).normalize_or(geometric_normal);
+        let geometric_normal = Vec3::from(self.geometric_normal);
+        let normal = if self.flat {
+            geometric_normal
+        } else {
+            let [na, nb, nc] = self.normals.map(Vec3::from);
+            (na * (1.0 - v - w) + nb * v + nc * w).normalize_or(geometric_normal)
+        };
         let [ta, tb, tc] = self.uvs.map(Vec2::from);
         let mut surface = Surface {
             position: Vec3::from(self.position) + ab * v + ac * w,

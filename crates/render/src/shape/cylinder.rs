@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::Result;
-use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3};
+use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::shape::{
@@ -101,12 +101,11 @@ impl Analytic for Cylinder {
 
 impl LightGeometry for Cylinder {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
-        let (sin_phi, cos_phi) = (2.0 * PI * u[0]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[0]);
         let outward = self.frame.to_world(Vec3::new(cos_phi, sin_phi, 0.0));
         let position = self.base + outward * self.radius + self.frame.n * (u[1] * self.length);
         let normal = outward * self.side;
-        let density = self.density(from, position, normal);
-        (density > 0.0).then_some(LightPoint { position, normal, uv: Vec2::from(u), density })
+        LightPoint::by_area(self.area(), from, position, normal, Vec2::from(u))
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {

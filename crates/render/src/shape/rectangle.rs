@@ -52,8 +52,7 @@ impl ParallelogramLight {
 impl LightGeometry for ParallelogramLight {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
         let position = self.corner + self.edges[0] * u[0] + self.edges[1] * u[1];
-        let density = area_to_solid_angle(self.area, from, position, self.normal);
-        (density > 0.0).then_some(LightPoint { position, normal: self.normal, uv: Vec2::from(u), density })
+        LightPoint::by_area(self.area, from, position, self.normal, Vec2::from(u))
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::Result;
-use crate::geometry::{Frame, Mat3A, Ray, Surface, Vec2, Vec3};
+use crate::geometry::{Frame, Mat3A, Ray, Surface, Vec2, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::shape::{Analytic, Entry, Geometry, LightGeometry, LightPoint, to_world, uniform_scale};
@@ -102,14 +102,13 @@ impl Analytic for Sphere {
 
 impl LightGeometry for Sphere {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
-        let (sin_phi, cos_phi) = (2.0 * PI * u[1]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[1]);
         let Some(cos_max) = self.cone(from) else {
             let z = 1.0 - 2.0 * u[0];
             let ring = (1.0 - z * z).max(0.0).sqrt();
             let outward = Vec3::new(ring * cos_phi, ring * sin_phi, z);
             let (position, normal) = (self.center + outward * self.radius, outward * self.side);
-            let density = self.density(from, position, normal);
-            return (density > 0.0).then_some(LightPoint { position, normal, uv: self.uv(outward), density });
+            return LightPoint::by_area(self.area(), from, position, normal, self.uv(outward));
         };
         let to_center = self.center - from;
         let distance = to_center.length();
@@ -127,12 +126,13 @@ impl LightGeometry for Sphere {
         let sin_alpha = (1.0 - cos_alpha * cos_alpha).max(0.0).sqrt();
         let frame = Frame::from_normal(-to_center / distance);
         let outward = frame.to_world(Vec3::new(sin_alpha * cos_phi, sin_alpha * sin_phi, cos_alpha));
-        Some(LightPoint {
-            position: self.center + outward * self.radius,
-            normal: outward * self.side,
-            uv: self.uv(outward),
-            density: 1.0 / (2.0 * PI * one_minus_cos_max),
-        })
+        let position = self.center + outward * self.radius;
+        let (normal, to_point) = (outward * self.side, position - from);
+        let distance = to_point.length();
+        let direction = to_point / distance;
+        let density = 1.0 / (2.0 * PI * one_minus_cos_max);
+        let seen = distance > 0.0 && normal.dot(direction) < 0.0;
+        seen.then(|| LightPoint { position, normal, uv: self.uv(outward), direction, distance, density })
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {

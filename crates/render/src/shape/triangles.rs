@@ -121,9 +121,8 @@ impl LightGeometry for TriangleLight {
         let position = a + (b - a) * v + (c - a) * w;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let [uv_a, uv_b, uv_c] = self.uvs[chosen];
-        let density = area_to_solid_angle(self.area(), from, position, normal);
         let uv = uv_a + (uv_b - uv_a) * v + (uv_c - uv_a) * w;
-        (density > 0.0).then_some(LightPoint { position, normal, uv, density })
+        LightPoint::by_area(self.area(), from, position, normal, uv)
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
