@@ -45,7 +45,8 @@ demo: setup ## Render a scene of ours with two samplers and say where the pictur
 
 .PHONY: test
 test: setup ## Run all Rust and Python tests
-	cargo test --locked --quiet --workspace --exclude evenlight-python
+# In the profile of the extension: dependencies are compiled once, and what is tested is what is used.
+	cargo test --locked --quiet --release --workspace --exclude evenlight-python
 	$(BIN)/python -m pytest
 
 .PHONY: test-statistics
@@ -56,7 +57,7 @@ test-statistics: setup ## Run the longer statistical tests
 .PHONY: lint
 lint: setup ## Check formatting, lints, types, stubs, docs and dependency arrows
 	cargo fmt --check
-	cargo clippy --locked --quiet --workspace --all-targets -- -D warnings
+	cargo clippy --locked --quiet --workspace --all-targets --all-features -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --workspace --no-deps --document-private-items
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check

@@ -11,13 +11,21 @@ __all__ = [
     "Scene",
     "__version__",
     "available_sequences",
+    "bsdfs",
     "check_writable",
+    "emitters",
     "filters",
+    "heuristics",
     "integrators",
+    "kernels",
     "load_scene",
     "render",
     "replicate_seed",
     "samplers",
+    "scrambles",
+    "sensors",
+    "shapes",
+    "textures",
     "write_exr",
     "write_png",
 ]
@@ -56,9 +64,20 @@ def load_scene(
 def render(
     scene: Scene, settings: dict[str, Any], progress: Callable[[dict[str, Any]], None] | None
 ) -> dict[str, Any]: ...
+
+# --- families: the names in each registry ---
+
+def scrambles() -> list[str]: ...
 def integrators() -> list[str]: ...
 def samplers() -> list[str]: ...
 def filters() -> list[str]: ...
+def bsdfs() -> list[str]: ...
+def emitters() -> list[str]: ...
+def shapes() -> list[str]: ...
+def textures() -> list[str]: ...
+def sensors() -> list[str]: ...
+def kernels() -> list[str]: ...
+def heuristics() -> list[str]: ...
 
 # --- output ---
 

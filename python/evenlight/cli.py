@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -67,8 +68,12 @@ def _say_what_was_written(film: Film, paths: Sequence[str]) -> None:
     height, width, _ = film.color.shape
     seconds = film.metadata.get("seconds", float("nan"))
     state = "interrupted: partial image" if film.partial else "done"
-    error = f"mean relative error {film.relative_error:.2%}"
+    error = f"mean relative error {_percentage(film.relative_error)}"
     print(f"{state}, {width}x{height}, {seconds:.1f} s, {error}: {', '.join(paths)}", file=sys.stderr)
+
+
+def _percentage(ratio: float) -> str:
+    return "unknown" if math.isnan(ratio) else f"{ratio:.2%}"
 
 
 def _info(options: argparse.Namespace) -> int:
@@ -119,7 +124,7 @@ class _Bar:
                 unit_scale=True,
                 dynamic_ncols=True,
                 leave=False,
-                disable=self._quiet,
+                disable=True if self._quiet else None,  # None: where nobody watches, nothing is drawn
             )
         if state["relative_error"] is not None:
             self._bar.set_postfix_str(f"error {state['relative_error']:.2%}", refresh=False)
@@ -170,8 +175,8 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     add("--max-depth", type=int, help="longest path in segments; -1: no limit (as the scene says)")
     add("--size", type=_size, metavar="WxH", help="pixels (as the scene says)")
     add("--filter", choices=_core.filters(), help="pixel filter (as the scene says)")
-    add("--mis", choices=["power", "balance"], default="power", help="weighting heuristic (%(default)s)")
-    add("--exposure", type=float, default=0.0, help="stops by which a PNG is brightened (%(default)s)")
+    add("--mis", choices=_core.heuristics(), default="power", help="weighting heuristic (%(default)s)")
+    add("--exposure", type=_stops, default=0.0, help="stops by which a PNG is brightened (%(default)s)")
     add("--quiet", action="store_true", help="no progress bar, no summary")
     parser.set_defaults(run=_render)
 
@@ -192,7 +197,7 @@ def _add_scene(parser: argparse.ArgumentParser) -> None:
     add("--allow-outside", action="store_true", help="allow files outside the scene's folder")
     add(
         "--kernel",
-        choices=["auto", "embree", "wide"],
+        choices=_core.kernels(),
         default="auto",
         help="what intersects rays (%(default)s)",
     )
@@ -212,9 +217,18 @@ def _add_points(parser: argparse.ArgumentParser) -> None:
 
 
 def _natural(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"'{text}' is negative")
+    if not (text.isascii() and text.isdecimal() and int(text) < 2**63):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from 0 to 2^63 - 1")
+    return int(text)
+
+
+def _stops(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a finite number of stops")
     return number
 
 

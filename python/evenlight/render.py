@@ -5,10 +5,10 @@ from __future__ import annotations
 import importlib.util
 import operator
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, SupportsIndex, TypeAlias
 
 from evenlight import _core
 from evenlight.film import Film
@@ -216,11 +216,17 @@ def _check_ranges(settings: dict[str, Any]) -> None:
     """Refuse numbers that the core's integers cannot hold, in the words of the settings."""
     numbers = dict(settings)
     if settings["size"] is not None:
+        if not isinstance(settings["size"], Sequence) or len(settings["size"]) != 2:
+            raise TypeError(f"size must be (width, height), not {settings['size']!r}")
         numbers["width"], numbers["height"] = settings["size"]
     for name, (least, most) in _RANGES.items():
         number = numbers.get(name)
-        if number is not None and not least <= operator.index(number) <= most:
-            where = f"size: {name}" if name in ("width", "height") else name
+        if number is None:
+            continue
+        where = f"size: {name}" if name in ("width", "height") else name
+        if not isinstance(number, SupportsIndex):
+            raise TypeError(f"{where} must be an integer, not {type(number).__name__}")
+        if not least <= operator.index(number) <= most:
             raise ValueError(f"{where} is {number}; {least} to {most} is allowed")
 
 

@@ -4,8 +4,6 @@
 //! test: over the some hundred checks here, a correct generator with a fresh seed would fail one of
 //! ten thousand runs.
 
-use std::collections::BTreeSet;
-
 use evenlight_points::{Error, PointSet, Seed, scramble, sequences};
 
 /// Runs a law on every sequence × scramble.
@@ -150,21 +148,6 @@ fn replicates_are_uniform_and_independent() {
             assert!(statistic < CHI_SQUARE_255, "{name}, two dimensions, row {index}: {statistic}");
         }
     });
-}
-
-#[test]
-fn every_file_of_a_family_is_registered() {
-    let files = |folder: &str| -> BTreeSet<String> {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder);
-        let entries = std::fs::read_dir(folder).expect("the source tree is there");
-        let names =
-            entries.map(|entry| entry.expect("readable").path().file_stem().expect("named").to_owned());
-        names.map(|name| name.to_string_lossy().into_owned()).filter(|name| name != "mod").collect()
-    };
-    let sequences: BTreeSet<_> = sequences::ALL.iter().map(|entry| entry.name.to_owned()).collect();
-    let scrambles: BTreeSet<_> = scramble::ALL.iter().map(|entry| entry.name.to_owned()).collect();
-    assert_eq!(files("sequences"), sequences);
-    assert_eq!(files("scramble"), scrambles);
 }
 
 #[test]

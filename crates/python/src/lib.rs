@@ -3,6 +3,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 gives away what it converts")]
 
 mod errors;
+mod families;
 mod output;
 mod points;
 mod render;
@@ -13,6 +14,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    families::register(module)?;
     output::register(module)?;
     points::register(module)?;
     render::register(module)

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use evenlight_render::film::Film;
-use evenlight_render::integrator::{self, Mis};
+use evenlight_render::integrator::Mis;
 use evenlight_render::render::{self as engine, Progress, Settings};
 use evenlight_render::scene::{Scene as Inner, SceneOptions, mitsuba};
-use evenlight_render::{filter, sampler};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,10 +17,7 @@ use crate::errors::raise;
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Scene>()?;
     module.add_function(wrap_pyfunction!(load_scene, module)?)?;
-    module.add_function(wrap_pyfunction!(render, module)?)?;
-    module.add_function(wrap_pyfunction!(integrators, module)?)?;
-    module.add_function(wrap_pyfunction!(samplers, module)?)?;
-    module.add_function(wrap_pyfunction!(filters, module)?)
+    module.add_function(wrap_pyfunction!(render, module)?)
 }
 
 /// A scene, loaded and ready to be rendered.
@@ -157,19 +153,4 @@ fn arrays(py: Python<'_>, film: Film) -> PyResult<Bound<'_, PyDict>> {
     result.set_item("normal", colored(normal).reshape([height, width, 3])?)?;
     result.set_item("depth", PyArray1::from_vec(py, depth).reshape([height, width])?)?;
     Ok(result)
-}
-
-#[pyfunction]
-fn integrators() -> Vec<&'static str> {
-    integrator::ALL.iter().map(|entry| entry.name).collect()
-}
-
-#[pyfunction]
-fn samplers() -> Vec<&'static str> {
-    sampler::ALL.iter().map(|entry| entry.name).collect()
-}
-
-#[pyfunction]
-fn filters() -> Vec<&'static str> {
-    filter::ALL.iter().map(|entry| entry.name).collect()
 }

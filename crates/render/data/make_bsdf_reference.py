@@ -65,27 +65,37 @@ BSDFS = {
     "roughconductor default": bsdf("roughconductor"),
     "roughconductor beckmann": bsdf("roughconductor", alpha=0.3, eta=(0.2, 0.9, 1.1), k=(3.9, 2.4, 2.1)),
     "roughconductor ggx anisotropic": BRUSHED,
-    "roughconductor beckmann anisotropic": bsdf("roughconductor", alpha_u=0.1, alpha_v=0.5, specular_reflectance=(0.9, 0.5, 0.3)),
+    "roughconductor beckmann anisotropic": bsdf(
+        "roughconductor", alpha_u=0.1, alpha_v=0.5, specular_reflectance=(0.9, 0.5, 0.3)
+    ),
     "roughconductor ggx all": bsdf("roughconductor", distribution="ggx", alpha=0.5, sample_visible=False),
     "roughconductor beckmann all": bsdf("roughconductor", alpha=0.4, sample_visible=False),
     "roughdielectric default": bsdf("roughdielectric"),
     "roughdielectric ggx": bsdf("roughdielectric", distribution="ggx", alpha=0.3, int_ior="water"),
     "roughdielectric dense": bsdf("roughdielectric", distribution="ggx", alpha=0.5, int_ior=1.0, ext_ior=1.8),
-    "roughdielectric all": bsdf("roughdielectric", alpha=0.3, sample_visible=False, specular_transmittance=(0.5, 0.9, 0.7)),
+    "roughdielectric all": bsdf(
+        "roughdielectric", alpha=0.3, sample_visible=False, specular_transmittance=(0.5, 0.9, 0.7)
+    ),
     "roughdielectric anisotropic": bsdf("roughdielectric", distribution="ggx", alpha_u=0.1, alpha_v=0.4),
     "plastic default": bsdf("plastic"),
     "plastic nonlinear": bsdf("plastic", diffuse_reflectance=(0.1, 0.2, 0.6), nonlinear=True, int_ior=1.9),
     "plastic textured": bsdf("plastic", PAINT, specular_reflectance=(0.5, 0.5, 0.2)),
     "roughplastic default": bsdf("roughplastic"),
-    "roughplastic ggx": bsdf("roughplastic", distribution="ggx", alpha=0.3, diffuse_reflectance=(0.1, 0.2, 0.6), nonlinear=True),
+    "roughplastic ggx": bsdf(
+        "roughplastic", distribution="ggx", alpha=0.3, diffuse_reflectance=(0.1, 0.2, 0.6), nonlinear=True
+    ),
     "roughplastic all": bsdf("roughplastic", alpha=0.5, sample_visible=False, int_ior=1.9),
-    "roughplastic textured": bsdf("roughplastic", PAINT, distribution="ggx", alpha=0.05, specular_reflectance=(0.5, 0.5, 0.2)),
+    "roughplastic textured": bsdf(
+        "roughplastic", PAINT, distribution="ggx", alpha=0.05, specular_reflectance=(0.5, 0.5, 0.2)
+    ),
     "mask": bsdf("mask", DIFFUSE, opacity=0.3),
     "mask rgb": bsdf("mask", BRUSHED, opacity=(0.2, 0.4, 0.9)),
     "blendbsdf": bsdf("blendbsdf", DIFFUSE, BRUSHED, weight=0.3),
     "blendbsdf delta": bsdf("blendbsdf", bsdf("plastic"), bsdf("dielectric"), weight=0.25),
     "normalmap": bsdf("normalmap", BRUSHED, normalmap=(0.8, 0.6, 0.8)),
-    "normalmap plain": bsdf("normalmap", DIFFUSE, normalmap=(0.2, 0.3, 0.7), flip_invalid_normals=False, use_shadowing_function=False),
+    "normalmap plain": bsdf(
+        "normalmap", DIFFUSE, normalmap=(0.2, 0.3, 0.7), flip_invalid_normals=False, use_shadowing_function=False
+    ),
     "normalmap glass": bsdf("normalmap", GLASS, normalmap=(0.8, 0.6, 0.8)),
     # Mitsuba 3.9.1 mixes world and local coordinates in the tangent of bump maps, so anisotropy is left out here.
     "bumpmap": bsdf("bumpmap", bsdf("roughconductor", alpha=0.4), HEIGHT, scale=0.4),
@@ -104,10 +114,14 @@ DELTAS = {
     "null": bsdf("null"),
 }
 
-ROTATED = '<transform name="to_uv"><scale x="2.0" y="2.0"/><rotate z="1" angle="30"/><translate x="0.2" y="0.1"/></transform>'
+ROTATED = (
+    '<transform name="to_uv"><scale x="2.0" y="2.0"/><rotate z="1" angle="30"/><translate x="0.2" y="0.1"/></transform>'
+)
 STRETCHED = '<transform name="to_uv"><scale x="2.0" y="3.0"/></transform>'
 TEXTURES = {
-    f"bitmap {filter_type} {wrap_mode}": texture("bitmap", filename="pattern.png", filter_type=filter_type, wrap_mode=wrap_mode)
+    f"bitmap {filter_type} {wrap_mode}": texture(
+        "bitmap", filename="pattern.png", filter_type=filter_type, wrap_mode=wrap_mode
+    )
     for filter_type in ("bilinear", "nearest")
     for wrap_mode in ("repeat", "mirror", "clamp")
 } | {
@@ -122,7 +136,9 @@ TEXTURES = {
 
 def make_images() -> None:
     """Two tiny images with all kinds of values."""
-    pattern = np.array([[[(37 * (i + 5 * j) + 83 * c * c) % 256 for c in range(3)] for i in range(5)] for j in range(3)])
+    pattern = np.array(
+        [[[(37 * (i + 5 * j) + 83 * c * c) % 256 for c in range(3)] for i in range(5)] for j in range(3)]
+    )
     height = np.array([[[(97 * i + 151 * j * j + 31) % 256] for i in range(4)] for j in range(4)])
     mi.Bitmap(pattern.astype(np.uint8)).write(str(FOLDER / "pattern.png"))
     mi.Bitmap(height.astype(np.uint8)).write(str(FOLDER / "height.png"))

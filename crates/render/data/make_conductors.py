@@ -14,10 +14,11 @@ Mitsuba's RGB variants, so that one material name means one set of numbers in bo
 """
 
 import csv
-import pathlib
 import sys
+from collections.abc import Iterator
+from pathlib import Path
 
-HERE = pathlib.Path(__file__).parent
+HERE = Path(__file__).parent
 STEPS, FIRST, LAST = 1000, 360.0, 830.0
 # Integral of the CIE y curve over 360-830 nm: a flat spectrum of 1 has luminance 1.
 Y_INTEGRAL = 106.7502593994140625
@@ -28,7 +29,7 @@ XYZ_TO_SRGB = (
 )
 
 
-def interpolate(xs, ys, x):
+def interpolate(xs: list[float], ys: list[float], x: float) -> float:
     """Linear interpolation; zero outside of the data."""
     if x < xs[0] or x > xs[-1]:
         return 0.0
@@ -37,16 +38,16 @@ def interpolate(xs, ys, x):
     return ys[hi - 1] * (1.0 - t) + ys[hi] * t
 
 
-def read_spd(path):
+def read_spd(path: Path) -> tuple[list[float], list[float]]:
     """Wavelengths and values of an .spd file."""
     lines = (line.split("#")[0].split() for line in path.read_text(encoding="latin-1").splitlines())
     pairs = [(float(line[0]), float(line[1])) for line in lines if line]
     return [w for w, _ in pairs], [v for _, v in pairs]
 
 
-def weights():
+def weights() -> Iterator[tuple[float, list[float]]]:
     """Wavelengths of the quadrature and the XYZ weight of each."""
-    with open(HERE / "cie_1931_d65_5nm.csv", encoding="utf-8") as file:
+    with (HERE / "cie_1931_d65_5nm.csv").open(encoding="utf-8") as file:
         rows = [[float(x) for x in row] for row in csv.reader(line for line in file if line[0].isdigit())]
     nodes = [row[0] for row in rows]
     for i in range(STEPS):
@@ -55,18 +56,19 @@ def weights():
         yield x, [interpolate(nodes, [row[c] for row in rows], x) * scale for c in (1, 2, 3)]
 
 
-def to_srgb(spd, quadrature):
+def to_srgb(spd: tuple[list[float], list[float]], quadrature: list[tuple[float, list[float]]]) -> list[float]:
     """Linear sRGB of a spectrum under equal energy; negative components (out of gamut) become zero."""
     xyz = [0.0, 0.0, 0.0]
     for x, weight in quadrature:
         value = interpolate(*spd, x)
-        xyz = [total + w * value for total, w in zip(xyz, weight)]
-    return [max(0.0, sum(m * c for m, c in zip(row, xyz))) for row in XYZ_TO_SRGB]
+        xyz = [total + w * value for total, w in zip(xyz, weight, strict=True)]
+    return [max(0.0, sum(m * c for m, c in zip(row, xyz, strict=True))) for row in XYZ_TO_SRGB]
 
 
-def main(folder):
+def main(folder: Path) -> None:
+    """Write the table from the spectra in a folder."""
     quadrature = list(weights())
-    with open(HERE / "conductors.csv", "w", encoding="utf-8") as out:
+    with (HERE / "conductors.csv").open("w", encoding="utf-8") as out:
         out.write("# Written by make_conductors.py, which names the sources. Complex index eta + i k in linear sRGB.\n")
         out.write("# name,eta r,eta g,eta b,k r,k g,k b\n")
         for eta in sorted(folder.glob("*.eta.spd"), key=lambda path: path.name.lower()):
@@ -78,4 +80,4 @@ def main(folder):
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    main(pathlib.Path(sys.argv[1]))
+    main(Path(sys.argv[1]))

@@ -15,6 +15,9 @@ use crate::{Error, Result};
 /// The widest and highest film.
 const LARGEST: i64 = 1 << 15;
 
+/// The most pixels of all replicates together: 6 GiB.
+const MOST_COLORS: u64 = 1 << 29;
+
 /// What a scene file says of the image.
 #[derive(Clone, Debug)]
 pub struct FilmSettings {
@@ -136,19 +139,29 @@ pub struct Film {
 }
 
 impl Film {
-    /// A film on which nothing has been recorded.
-    pub fn new(width: u32, height: u32, replicates: u32) -> Self {
+    /// A film on which nothing has been recorded; an error if it is too large for the memory.
+    pub fn new(width: u32, height: u32, replicates: u32) -> Result<Self> {
+        let refuse = |why: &str| {
+            Error::Settings(format!("an image of {width}x{height} pixels and {replicates} replicates {why}"))
+        };
         let pixels = width as usize * height as usize;
-        Self {
+        let count = (pixels as u64).checked_mul(replicates.into()).filter(|count| *count <= MOST_COLORS);
+        let count = count.ok_or_else(|| {
+            refuse(&format!("is too large; width × height × replicates up to {MOST_COLORS} is allowed"))
+        })?;
+        let mut colors = Vec::new();
+        colors.try_reserve_exact(count as usize).map_err(|_| refuse("does not fit into the memory"))?;
+        colors.resize(count as usize, [f32::NAN; 3]);
+        Ok(Self {
             width,
             height,
             replicates,
-            colors: vec![[f32::NAN; 3]; pixels * replicates as usize],
+            colors,
             completed: vec![0; pixels],
             albedo: vec![[0.0; 3]; pixels],
             normal: vec![[0.0; 3]; pixels],
             depth: vec![0.0; pixels],
-        }
+        })
     }
 
     /// Merge a finished tile. Tiles must come in the order of their replicates.

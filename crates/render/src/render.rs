@@ -80,6 +80,9 @@ impl std::fmt::Debug for Film {
     }
 }
 
+/// Samples of a pixel between two looks at whether to stop.
+const STOP_INTERVAL: u32 = 256;
+
 /// Everything that a pixel needs, checked and built.
 struct Job<'a> {
     scene: &'a Scene,
@@ -100,7 +103,7 @@ pub fn render(
 ) -> Result<Film> {
     let job = Job::new(scene, settings)?;
     let [_, _, width, height] = job.film.crop;
-    let mut film = Film::new(width, height, settings.replicates);
+    let mut film = Film::new(width, height, settings.replicates)?;
     let tiles = tiles(width, height, settings.replicates);
     let total = u64::from(width) * u64::from(height) * u64::from(settings.spp);
     let threads = match settings.threads {
@@ -207,23 +210,29 @@ impl<'a> Job<'a> {
         let seed = self.seed.replicate(tile.replicate.into());
         let mut means = Vec::with_capacity((tile.width * tile.height) as usize);
         for y in tile.y..tile.y + tile.height {
-            if stop.load(Ordering::Relaxed) {
-                return None;
-            }
             for x in tile.x..tile.x + tile.width {
                 let (x, y) = (x + self.film.crop[0], y + self.film.crop[1]);
-                means.push(self.render_pixel(x, y, PathNumbers::new(self.sampler, seed.pixel(x, y))));
+                means.push(self.render_pixel(
+                    x,
+                    y,
+                    PathNumbers::new(self.sampler, seed.pixel(x, y)),
+                    stop,
+                )?);
             }
         }
         Some(means)
     }
 
-    fn render_pixel(&self, x: u32, y: u32, mut numbers: PathNumbers) -> PixelMean {
+    /// The mean of a pixel; `None` when told to stop.
+    fn render_pixel(&self, x: u32, y: u32, mut numbers: PathNumbers, stop: &AtomicBool) -> Option<PixelMean> {
         let [width, height] = self.film.size.map(|n| n as f32);
         let mut sum = PixelMean::default();
         let mut hits = 0.0_f32;
         let mut color = [0.0_f64; 3];
         for index in 0..self.samples {
+            if index.is_multiple_of(STOP_INTERVAL) && stop.load(Ordering::Relaxed) {
+                return None;
+            }
             numbers.start(index);
             let camera = numbers.camera();
             let (dx, weight_x) = self.film.filter.sample(camera.film[0]);
@@ -241,11 +250,11 @@ impl<'a> Job<'a> {
             hits += f32::from(u8::from(measured.depth > 0.0));
         }
         let count = self.samples as f32;
-        PixelMean {
+        Some(PixelMean {
             radiance: Rgb::from_array(color.map(|sum| (sum / f64::from(self.samples)) as f32)),
             albedo: sum.albedo / count,
             normal: Vec3::normalize_or_zero(sum.normal),
             depth: sum.depth / hits.max(1.0),
-        }
+        })
     }
 }

@@ -318,20 +318,9 @@ fn extremes_give_finite_numbers() {
     }
 }
 
-/// Files of the folder that are no members of the family.
-const NOT_MEMBERS: &[&str] =
-    &["coat", "fresnel", "gauss", "interface", "metal", "microfacet", "mod", "perturbed", "warp"];
-
 #[test]
-fn every_file_is_registered_and_tried() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/bsdf");
-    let files: BTreeSet<String> = std::fs::read_dir(folder)
-        .expect("the sources")
-        .filter_map(|entry| Some(entry.ok()?.path().file_stem()?.to_str()?.to_owned()))
-        .filter(|stem| !NOT_MEMBERS.contains(&stem.as_str()))
-        .collect();
-    let registered = bsdf::ALL.iter().map(|entry| entry.name.to_owned()).collect();
-    assert_eq!(files, registered);
-    let tried = CASES.iter().filter_map(|case| Some(case.split_whitespace().next()?.to_owned())).collect();
-    assert_eq!(files, tried);
+fn every_registered_bsdf_is_tried() {
+    let registered: BTreeSet<_> = bsdf::ALL.iter().map(|entry| entry.name).collect();
+    let tried = CASES.iter().filter_map(|case| case.split_whitespace().next()).collect();
+    assert_eq!(registered, tried);
 }

@@ -1,12 +1,10 @@
-//! Laws of textures, and their registry.
+//! Laws of textures.
 
 mod plugins;
 
-use std::collections::BTreeSet;
-
 use evenlight_render::geometry::{Rgb, Vec2};
+use evenlight_render::texture::Texture;
 use evenlight_render::texture::bitmap::{Bitmap, Filter, Wrap};
-use evenlight_render::texture::{self, Texture};
 
 const COLORS: [[f32; 3]; 6] =
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5, 0.2, 7.0], [0.1, 0.1, 0.1], [0.0, 0.3, 0.9]];
@@ -73,18 +71,4 @@ fn means_are_means() {
     assert!((bitmap(Filter::Nearest, Wrap::Clamp).mean() - expected).abs().max_element() < 1e-6);
     let board = plugins::texture("<texture type=\"checkerboard\"/>").expect("a checkerboard");
     assert!((board.mean() - Rgb::splat(0.3)).abs().max_element() < 1e-6);
-}
-
-/// Files of the folder that are no plugins.
-const NOT_MEMBERS: &[&str] = &["constant", "coordinates", "exr", "image", "mod", "slot", "texels"];
-
-#[test]
-fn every_file_is_registered() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/texture");
-    let files: BTreeSet<String> = std::fs::read_dir(folder)
-        .expect("the sources")
-        .filter_map(|entry| Some(entry.ok()?.path().file_stem()?.to_str()?.to_owned()))
-        .filter(|stem| !NOT_MEMBERS.contains(&stem.as_str()))
-        .collect();
-    assert_eq!(files, texture::ALL.iter().map(|entry| entry.name.to_owned()).collect());
 }

@@ -91,7 +91,8 @@ impl Replacement {
         if fs::metadata(&target).is_ok_and(|what| !what.is_file()) {
             return Err(io::Error::other("exists and is not a regular file"));
         }
-        let Some(name) = target.file_name() else {
+        let named = !path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
+        let Some(name) = target.file_name().filter(|_| named) else {
             return Err(io::Error::other("is not the name of a file"));
         };
         let count = COUNTER.fetch_add(1, Ordering::Relaxed);
@@ -178,6 +179,7 @@ pub(crate) mod tests {
         let message = check_writable(&missing).expect_err("no folder").to_string();
         assert!(message.contains("no/such/folder/a.exr"), "{message}");
         assert!(check_writable(&folder.0).is_err(), "a folder is not a file");
+        assert!(check_writable(&folder.0.join("a.exr/")).is_err(), "nor is what would have to be one");
         check_writable(&folder.0.join("a.exr")).expect("this one is fine");
         assert!(folder.names().is_empty(), "checking leaves nothing behind");
     }

@@ -2,7 +2,7 @@
 //! read unless that is allowed.
 //!
 //! A scene is data from somebody else. Without this fence a downloaded file could make a render read anything its user
-//! can read. All file names in a scene go through [`Folder::resolve`], and all contents through [`read`].
+//! can read. All file names in a scene go through [`Folder::resolve`], and all contents through `read`.
 
 use std::fs;
 use std::io::Read;

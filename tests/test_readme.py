@@ -1,0 +1,95 @@
+"""The README is true: its examples run, and its table of families is that of the registries."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from conftest import ROOT
+from evenlight import _core, cli, points
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    """The code blocks in a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", README, flags=re.DOTALL | re.MULTILINE)
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that holds our scenes and whatever the examples write."""
+    (tmp_path / "scenes").symlink_to(ROOT / "scenes", target_is_directory=True)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_python_example_runs(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = blocks("python")
+    assert len(example.splitlines()) <= 10
+    names: dict[str, Any] = {}
+    exec(example, names)
+    shapes, relative_error = capsys.readouterr().out.splitlines()
+    assert f"# {shapes}" in example
+    assert 0 < float(relative_error) < 1
+    assert (folder / "demo.exr").is_file()
+    assert (folder / "demo.png").is_file()
+    assert names["x"].shape == (1024, 8)
+
+
+def commands() -> list[str]:
+    """Lines of the shell blocks that call the program."""
+    return [line for block in blocks("sh") for line in block.splitlines() if line.startswith("evenlight ")]
+
+
+@pytest.mark.parametrize("command", commands())
+def test_the_commands_run(folder: Path, command: str) -> None:
+    arguments = shlex.split(command)[1:]
+    assert cli.main(arguments) == 0
+    for flag, name in pairwise(arguments):
+        if flag == "-o":
+            assert (folder / name).is_file()
+
+
+def test_set_up_is_two_commands() -> None:
+    lines = [line.split("#")[0].split() for block in blocks("sh") for line in block.splitlines()]
+    assert [line for line in lines if line[0] == "make"] == [["make", "demo"], ["make", "test"]]
+
+
+FAMILIES = {
+    "sequences": [info.name for info in points.available()],
+    "scrambles": _core.scrambles(),
+    "samplers": _core.samplers(),
+    "integrators": _core.integrators(),
+    "BSDFs": _core.bsdfs(),
+    "emitters": [*_core.emitters(), "area"],  # built with its shape, not by the registry
+    "shapes": _core.shapes(),
+    "textures": _core.textures(),
+    "sensors": _core.sensors(),
+    "filters": _core.filters(),
+}
+
+
+def test_the_table_of_families_is_that_of_the_registries() -> None:
+    rows = re.findall(r"^\| (\w+) \| (.*?) \| `(.*?)` \|$", README, flags=re.MULTILINE)
+    members = {family: re.findall(r"`(\w+)`", names) for family, names, _ in rows}
+    assert {family: sorted(names) for family, names in members.items()} == {
+        family: sorted(names) for family, names in FAMILIES.items()
+    }
+    for _, _, place in rows:
+        assert (ROOT / place / "mod.rs").is_file()
+
+
+@pytest.mark.parametrize("document", ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"])
+def test_files_that_documents_name_exist(document: str) -> None:
+    text = (ROOT / document).read_text(encoding="utf-8")
+    named = re.findall(r"`((?:crates|tests|python|scenes|benches|statistics|examples)/[\w./]*)`", text)
+    linked = re.findall(r"\]\(([\w./-]+)\)", text)
+    for name in named + linked:
+        if Path(name).stem != "x":  # the file that is to be added
+            assert (ROOT / name).exists(), name
