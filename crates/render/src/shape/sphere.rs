@@ -1,4 +1,4 @@
-//! `sphere`: a sphere given by center and radius, or by a transform of the unit sphere.
+//! `sphere`: a sphere given by center and radius, or by a transform of the unit sphere; a mirroring one turns it inside out.
 //!
 //! As a light it is sampled by the solid angle of its visible cap (Shirley, Wang & Zimmerman 1996).
 
@@ -32,7 +32,8 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
     if radius <= 0.0 || !radius.is_finite() {
         return Err(properties.error("radius must be positive"));
     }
-    let side = if properties.boolean("flip_normals", false)? { -1.0 } else { 1.0 };
+    let mirrored = to_world.matrix3.determinant() < 0.0;
+    let side = if properties.boolean("flip_normals", false)? == mirrored { 1.0 } else { -1.0 };
     let rotation = to_world.matrix3 * (1.0 / scale);
     Ok(Geometry::Analytic(Arc::new(Sphere {
         center: to_world.transform_point3(DVec3::from(center)).as_vec3().into(),

@@ -46,11 +46,8 @@ pub(crate) fn place(mut mesh: Mesh, options: &MeshOptions) -> Mesh {
     mesh
 }
 
-/// Apply a transform to positions and normals.
+/// Apply a transform to positions and normals; normals become unit vectors.
 pub(crate) fn transform(mesh: &mut Mesh, to_world: &DAffine3) {
-    if *to_world == DAffine3::IDENTITY {
-        return;
-    }
     for position in &mut mesh.positions {
         *position = to_world.transform_point3(DVec3::from(position.map(f64::from))).as_vec3().into();
     }
