@@ -78,6 +78,14 @@ fn vertex_normals(mesh: &Mesh) -> Vec<[f32; 3]> {
     normals.into_iter().map(|normal| normal.normalize_or(Vec3::X).into()).collect()
 }
 
+/// The corners of a triangle, counterclockwise as seen from the side of its vertex normals: mirrored meshes are not.
+fn facing_outwards(mesh: &Mesh, [a, b, c]: [u32; 3]) -> [u32; 3] {
+    let Some(normals) = &mesh.normals else { return [a, b, c] };
+    let outward: Vec3 = [a, b, c].iter().map(|&index| Vec3::from(normals[index as usize])).sum();
+    let [pa, pb, pc] = [a, b, c].map(|index| Vec3::from(mesh.positions[index as usize]));
+    if (pb - pa).cross(pc - pa).dot(outward) < 0.0 { [a, c, b] } else { [a, b, c] }
+}
+
 /// A mesh as a light: a triangle is chosen by area, then a point on it uniformly.
 pub(crate) struct TriangleLight {
     corners: Vec<[Vec3; 3]>,
@@ -89,9 +97,10 @@ pub(crate) struct TriangleLight {
 impl TriangleLight {
     /// The light of a mesh.
     pub(crate) fn new(mesh: &Mesh) -> Self {
-        let corners: Vec<_> =
-            (0..mesh.indices.len()).map(|i| [0, 1, 2].map(|k| corner(mesh, i, k))).collect();
+        let indices: Vec<_> = mesh.indices.iter().map(|&triangle| facing_outwards(mesh, triangle)).collect();
+        let position = |index: u32| Vec3::from(mesh.positions[index as usize]);
         let uv = |index: u32| mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[index as usize].into());
+        let corners: Vec<_> = indices.iter().map(|triangle| triangle.map(position)).collect();
         let mut total = 0.0_f64;
         let cumulative_area = corners.iter().map(|[a, b, c]| {
             total += f64::from(0.5 * (*b - *a).cross(*c - *a).length());
@@ -99,7 +108,7 @@ impl TriangleLight {
         });
         Self {
             cumulative_area: cumulative_area.collect(),
-            uvs: mesh.indices.iter().map(|triangle| triangle.map(uv)).collect(),
+            uvs: indices.iter().map(|triangle| triangle.map(uv)).collect(),
             corners,
         }
     }
