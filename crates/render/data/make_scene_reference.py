@@ -6,10 +6,12 @@ Run `python make_scene_reference.py` where the `mitsuba` package is installed. L
     light,NAME,XML             likewise: a light that is sampled
     sky,NAME,XML               likewise: a light that rays meet when they leave the scene
     sensor,NAME,XML            likewise
+    filter,NAME,XML            likewise
     origin,direction,t,position,n,shading n,uv,dp_du,dp_dv    3 + 3 + 1 + 3 + 3 + 3 + 2 + 3 + 3 numbers, for a shape
     from,direction,distance,weight                    3 + 3 + 1 + 3 numbers, for a light; the distance to infinity is 0
     direction,radiance                                3 + 3 numbers, for a sky
     film,lens,origin,direction,length                 2 + 2 + 3 + 3 + 1 numbers, for a sensor
+    place,value,radius                                1 + 1 + 1 numbers, for a filter, whose integral is not 1
 
 `film` counts from the top left corner of the whole film, not of the crop window; `lens` are the numbers that give
 Mitsuba's point of the lens through r = sqrt(lens[0]), phi = 2 pi lens[1].
@@ -159,6 +161,14 @@ SENSORS = {
 }
 
 
+FILTERS = {name: f'<rfilter type="{name}"/>' for name in ("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")} | {
+    "gaussian wide": '<rfilter type="gaussian"><float name="stddev" value="0.8"/></rfilter>',
+    "lanczos two": '<rfilter type="lanczos"><integer name="lobes" value="2"/></rfilter>',
+    "mitchell sharp": '<rfilter type="mitchell"><float name="B" value="0.1"/><float name="C" value="0.45"/></rfilter>',
+    "tent wide": '<rfilter type="tent"><float name="radius" value="1.5"/></rfilter>',
+}
+
+
 def load(xml: str) -> object:
     """Build a scene of one plugin."""
     for name in ("roof.obj", "roof.ply", "pattern.png"):
@@ -225,14 +235,27 @@ def sensor_rows(scene: object, rng: np.random.Generator) -> list[str]:
     return rows
 
 
+def filter_rows(scene: object, rng: np.random.Generator) -> list[str]:
+    """Places within the radius."""
+    rfilter = scene.sensors()[0].film().rfilter()
+    places = np.round(rng.uniform(-1, 1, size=2 * ROWS) * rfilter.radius(), 6)
+    return [numbers(x, rfilter.eval(x), rfilter.radius()) for x in places]
+
+
 def main() -> None:
     """Write the file."""
     lines = [f"# Made by data/make_scene_reference.py with Mitsuba {mi.__version__} ({mi.variant()})"]
-    families = (("shape", SHAPES, shape_rows), ("light", LIGHTS, light_rows), ("sky", SKIES, sky_rows), ("sensor", SENSORS, sensor_rows))
+    families = (
+        ("shape", SHAPES, shape_rows),
+        ("light", LIGHTS, light_rows),
+        ("sky", SKIES, sky_rows),
+        ("sensor", SENSORS, sensor_rows),
+        ("filter", FILTERS, filter_rows),
+    )
     for family, members, make in families:
         for index, (name, xml) in enumerate(members.items()):
             lines.append(f"{family},{name},{xml}")
-            lines += make(load(xml), np.random.default_rng([index, ROWS]))
+            lines += make(load(sensor("perspective", FILM.format(8, 8, xml)) if family == "filter" else xml), np.random.default_rng([index, ROWS]))
     (FOLDER / "scene_reference.csv").write_text("\n".join(lines) + "\n")
 
 
