@@ -39,7 +39,12 @@ const SIDE: [f32; 3] = [2.5, 0.6, 0.3];
 const BACK: [f32; 3] = [0.6, -0.4, -1.5];
 
 const SHAPES: &[Line] = &[
-    ("rectangle", "rectangle", "<scale value='1'/>", &[(FRONT, Some(1.0)), (SIDE, Some(1.0)), (BACK, Some(0.0))]),
+    (
+        "rectangle",
+        "rectangle",
+        "<scale value='1'/>",
+        &[(FRONT, Some(1.0)), (SIDE, Some(1.0)), (BACK, Some(0.0))],
+    ),
     ("rectangle near", "rectangle", "<scale value='1'/>", &[([0.3, -0.1, 0.5], Some(1.0))]),
     ("rectangle far", "rectangle", "<scale value='0.2'/>", &[([-20.0, 24.0, 40.0], Some(1.0))]),
     ("rectangle long", "rectangle", "<scale x='2' y='0.3'/>", &[(FRONT, Some(1.0))]),
@@ -52,7 +57,12 @@ const SHAPES: &[Line] = &[
         &[(FRONT, Some(1.0)), (BACK, Some(0.0))],
     ),
     ("disk", "disk", "<scale value='1'/>", &[(FRONT, Some(1.0)), (BACK, Some(0.0))]),
-    ("disk elliptic", "disk", "<scale x='1.2' y='0.5'/>", &[(FRONT, Some(1.0)), ([0.3, -0.1, 0.5], Some(1.0))]),
+    (
+        "disk elliptic",
+        "disk",
+        "<scale x='1.2' y='0.5'/>",
+        &[(FRONT, Some(1.0)), ([0.3, -0.1, 0.5], Some(1.0))],
+    ),
     ("disk flipped", "disk", FLIP, &[([0.2, 0.3, -1.0], Some(1.0))]),
     ("cube", "cube", "<scale x='0.5' y='0.7' z='0.4'/>", &[(FRONT, None), (SIDE, None), (BACK, None)]),
     ("cube mirrored", "cube", "<scale x='-0.5' y='0.7' z='0.4'/>", &[(FRONT, None), (SIDE, None)]),
@@ -189,8 +199,9 @@ impl Cone {
     fn probability(&self, case: &Case, bin: usize) -> f64 {
         let solid_angle = 2.0 * std::f64::consts::PI * f64::from(1.0 - self.lowest);
         let midpoints = |n: usize| {
-            let place =
-                |bin: usize, i: usize, count: usize| (bin as f32 + (i as f32 + 0.5) / n as f32) / count as f32;
+            let place = |bin: usize, i: usize, count: usize| {
+                (bin as f32 + (i as f32 + 0.5) / n as f32) / count as f32
+            };
             let nodes = (0..n * n).map(|node| {
                 let z = place(bin / BINS.1, node / n, BINS.0);
                 case.density(self.direction(z, place(bin % BINS.1, node % n, BINS.1)))
@@ -254,7 +265,10 @@ fn a_ray_finds_what_was_sampled() {
             let density = case.light().density(case.from, &hit);
             // a triangle's edge may be hit on either side; textures are smooth enough for 2 %
             let radiance = (case.light().radiance(&hit) - sample.radiance).abs().max_element() < 0.02;
-            assert!(near && radiance && (density / sample.density - 1.0).abs() < 2e-3, "{context}: {density}");
+            assert!(
+                near && radiance && (density / sample.density - 1.0).abs() < 2e-3,
+                "{context}: {density}"
+            );
         }
         assert!(compared > 200, "{}: only {compared}", case.name);
     }
@@ -292,7 +306,9 @@ fn spot_light_falls_off_linearly_with_the_angle() {
         "<emitter type='spot'><rgb name='intensity' value='6 3 1'/><float name='cutoff_angle' value='40'/>\
          <float name='beam_width' value='30'/></emitter>",
     );
-    for (degrees, falloff) in [(0.0_f32, 1.0), (29.9, 1.0), (32.5, 0.75), (35.0, 0.5), (39.0, 0.1), (40.1, 0.0)] {
+    for (degrees, falloff) in
+        [(0.0_f32, 1.0), (29.9, 1.0), (32.5, 0.75), (35.0, 0.5), (39.0, 0.1), (40.1, 0.0)]
+    {
         let from = from_angles(degrees.to_radians().cos(), 1.0) * 2.0;
         let light = scene.emitters[0].sample(from, [0.5; 2]);
         let ours = light.map_or(0.0, |light| light.radiance.x);

@@ -118,7 +118,8 @@ fn floors() -> Vec<Case> {
     let (sphere, sphere_xml) = sphere_light(4.0);
     // a disk of radius 0.7 face to face at height 1.2: π R² / (R² + h²)
     let disk = PI * 0.49 / (0.49 + 1.44);
-    let disk_xml = shape("disk", &area(4.0), "<scale value='0.7'/><rotate x='1' angle='180'/><translate z='1.2'/>");
+    let disk_xml =
+        shape("disk", &area(4.0), "<scale value='0.7'/><rotate x='1' angle='180'/><translate z='1.2'/>");
     let point = "<emitter type='point'><rgb name='intensity' value='3'/><point name='position' x='0.6' y='0' z='0.8'/></emitter>";
     // 10° off its axis, half way down from a beam of 5° to the cutoff at 15°
     let spot = "<emitter type='spot'><rgb name='intensity' value='9'/><float name='cutoff_angle' value='15'/>\
@@ -152,9 +153,12 @@ fn furnace(name: &'static str, albedo: f64, max_depth: i32, rr_depth: i32) -> Ca
 
 /// Glass, mirrors and masks.
 fn specular() -> Vec<Case> {
-    let glass = |plugin: &str| format!("<bsdf type='{plugin}'>{}{}</bsdf>", number("int_ior", 1.5), number("ext_ior", 1.0));
+    let glass = |plugin: &str| {
+        format!("<bsdf type='{plugin}'>{}{}</bsdf>", number("int_ior", 1.5), number("ext_ior", 1.0))
+    };
     let mirror = "<bsdf type='conductor'><string name='material' value='none'/><rgb name='specular_reflectance' value='0.8'/></bsdf>";
-    let mirrors = |transform: &str| shape("rectangle", &format!("<bsdf type='twosided'>{mirror}</bsdf>"), transform);
+    let mirrors =
+        |transform: &str| shape("rectangle", &format!("<bsdf type='twosided'>{mirror}</bsdf>"), transform);
     let mask = format!("<bsdf type='mask'>{}{}</bsdf>", number("opacity", 0.3), diffuse(ALBEDO));
     let above = camera("0.3 0.4 2", "0 0 0");
     let lamp = shape("rectangle", &area(3.0), "<scale value='5'/><translate z='-1'/>");
@@ -166,8 +170,18 @@ fn specular() -> Vec<Case> {
     vec![
         case("glass slab", -1, above.clone() + &slab(&glass("dielectric")) + &sky(1.0), 1.0),
         case("glass ball", -1, above.clone() + &shape("sphere", &glass("dielectric"), "") + &sky(1.0), 1.0),
-        case("thin glass under the sky", -1, above.clone() + &plane(&glass("thindielectric")) + &sky(1.0), 1.0),
-        case("thin glass", -1, camera("0 0 2", "0 0 0") + &plane(&glass("thindielectric")) + &lamp, 3.0 * through),
+        case(
+            "thin glass under the sky",
+            -1,
+            above.clone() + &plane(&glass("thindielectric")) + &sky(1.0),
+            1.0,
+        ),
+        case(
+            "thin glass",
+            -1,
+            camera("0 0 2", "0 0 0") + &plane(&glass("thindielectric")) + &lamp,
+            3.0 * through,
+        ),
         case("mask", -1, above.clone() + &plane(&mask) + &sky(2.0), 2.0 * (0.3 * ALBEDO + 0.7)),
         case("mask over a lamp", -1, above + &plane(&mask) + &lamp, 3.0 * 0.7),
         case(
@@ -217,7 +231,8 @@ fn variants() -> Vec<Settings> {
 /// The mean of the red image over each replicate.
 fn replicate_means(colors: &[[f32; 3]]) -> Vec<f64> {
     let pixels = colors.len() / REPLICATES as usize;
-    let mean = |image: &[[f32; 3]]| image.iter().map(|color| f64::from(color[0])).sum::<f64>() / pixels as f64;
+    let mean =
+        |image: &[[f32; 3]]| image.iter().map(|color| f64::from(color[0])).sum::<f64>() / pixels as f64;
     colors.chunks_exact(pixels).map(mean).collect()
 }
 

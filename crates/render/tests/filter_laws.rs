@@ -91,7 +91,8 @@ fn functions_agree_with_mitsuba() {
     for line in include_str!("data/scene_reference.csv").lines() {
         if line.starts_with(|first: char| first.is_ascii_alphabetic()) {
             let name = line.strip_prefix("filter,").and_then(|rest| rest.split(',').next());
-            current = name.map(|name| FUNCTIONS.iter().find(|known| known.0 == name).expect("a known filter"));
+            current =
+                name.map(|name| FUNCTIONS.iter().find(|known| known.0 == name).expect("a known filter"));
         } else if let Some((name, f, radius)) = current {
             let row: Vec<f64> = line.split(',').map(|x| x.parse().expect("a number")).collect();
             // Mitsuba approximates the exponential of its Gaussian

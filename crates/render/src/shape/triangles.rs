@@ -116,8 +116,9 @@ impl TriangleLight {
 
 impl LightGeometry for TriangleLight {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
+        let last = self.corners.len().checked_sub(1)?;
         let target = u[0] * self.area();
-        let chosen = self.cumulative_area.partition_point(|&sum| sum <= target).min(self.corners.len() - 1);
+        let chosen = self.cumulative_area.partition_point(|&sum| sum <= target).min(last);
         let below = if chosen == 0 { 0.0 } else { self.cumulative_area[chosen - 1] };
         let width = self.cumulative_area[chosen] - below;
         let within = if width > 0.0 { ((target - below) / width).clamp(0.0, 1.0) } else { 0.5 };
