@@ -44,7 +44,10 @@ OVERTURNED = '<boolean name="flip_tex_coords" value="true"/>'
 OBJ = '<string name="filename" value="roof.obj"/>'
 PLY = '<string name="filename" value="roof.ply"/>'
 CENTER = '<point name="center" x="0.2" y="0.3" z="-0.4"/><float name="radius" value="0.8"/>'
-ENDS = '<point name="p0" x="0.1" y="0.3" z="-0.5"/><point name="p1" x="0.4" y="-0.6" z="0.9"/><float name="radius" value="0.6"/>'
+ENDS = (
+    '<point name="p0" x="0.1" y="0.3" z="-0.5"/><point name="p1" x="0.4" y="-0.6" z="0.9"/>'
+    '<float name="radius" value="0.6"/>'
+)
 # Shading follows dp_du only where it is asked for.
 METAL = '<bsdf type="roughconductor"><float name="alpha_u" value="0.1"/><float name="alpha_v" value="0.4"/></bsdf>'
 
@@ -69,9 +72,15 @@ SHAPES = {
     "cylinder turned": shape("cylinder", EVEN),
     "cylinder placed": shape("cylinder", ENDS),
     "cylinder placed turned": shape("cylinder", ENDS, EVEN),
-    "cylinder long": shape("cylinder", f'<transform name="to_world"><scale x="0.4" y="0.4" z="1.7"/>{TURNED}</transform>'),
+    "cylinder long": shape(
+        "cylinder", f'<transform name="to_world"><scale x="0.4" y="0.4" z="1.7"/>{TURNED}</transform>'
+    ),
     "cylinder mirrored": shape("cylinder", PLACES[" mirrored"]),
-    **{f"{kind}{place}": shape(kind, path, xml) for kind, path in (("obj", OBJ), ("ply", PLY)) for place, xml in PLACES.items()},
+    **{
+        f"{kind}{place}": shape(kind, path, xml)
+        for kind, path in (("obj", OBJ), ("ply", PLY))
+        for place, xml in PLACES.items()
+    },
     "obj faceted": shape("obj", OBJ, FACETED),
     "obj flipped": shape("obj", OBJ, FLIPPED),
     "obj flipped faceted": shape("obj", OBJ, FLIPPED, FACETED),
@@ -98,12 +107,16 @@ def light(plugin: str, *inside: str, **numbers: float) -> str:
 LIGHTS = {
     "point": light("point", INTENSITY, '<point name="position" x="0.1" y="2" z="-0.3"/>'),
     "point default": light("point"),
-    "point moved": light("point", INTENSITY, '<transform name="to_world"><translate x="0.4" y="2" z="0.5"/></transform>'),
+    "point moved": light(
+        "point", INTENSITY, '<transform name="to_world"><translate x="0.4" y="2" z="0.5"/></transform>'
+    ),
     "spot": light("spot", INTENSITY, AIMED),
     "spot wide": light("spot", INTENSITY, AIMED, cutoff_angle=60.0, beam_width=10.0),
     "spot hard": light("spot", INTENSITY, AIMED, cutoff_angle=40.0, beam_width=39.9),
     "spot textured": light("spot", INTENSITY, AIMED, PICTURE, cutoff_angle=50.0, beam_width=40.0),
-    "directional": light("directional", '<rgb name="irradiance" value="3 2 1"/>', '<vector name="direction" x="1" y="-2" z="0.5"/>'),
+    "directional": light(
+        "directional", '<rgb name="irradiance" value="3 2 1"/>', '<vector name="direction" x="1" y="-2" z="0.5"/>'
+    ),
     "directional default": light("directional"),
     "directional turned": light("directional", f'<transform name="to_world">{TURNED}</transform>'),
 }
@@ -122,7 +135,12 @@ SKIES = {
 FILM = '<film type="hdrfilm"><integer name="width" value="{}"/><integer name="height" value="{}"/>{}</film>'
 WIDE, TALL = FILM.format(48, 32, ""), FILM.format(20, 50, "")
 CROPPED = FILM.format(
-    48, 32, "".join(f'<integer name="crop_{k}" value="{v}"/>' for k, v in (("offset_x", 10), ("offset_y", 4), ("width", 16), ("height", 20)))
+    48,
+    32,
+    "".join(
+        f'<integer name="crop_{k}" value="{v}"/>'
+        for k, v in (("offset_x", 10), ("offset_y", 4), ("width", 16), ("height", 20))
+    ),
 )
 CLIP = {"near_clip": 0.5, "far_clip": 20.0}
 LENS = {"aperture_radius": 0.2, "focus_distance": 3.0}
@@ -140,14 +158,20 @@ def axis(name: str) -> str:
 
 
 AXES = ("x", "y", "diagonal", "smaller", "larger")
-SCALED = '<transform name="to_world"><scale x="2" y="2"/><lookat origin="1 2 3" target="0 0.5 0" up="0 1 0"/></transform>'
+SCALED = (
+    '<transform name="to_world"><scale x="2" y="2"/><lookat origin="1 2 3" target="0 0.5 0" up="0 1 0"/></transform>'
+)
 SENSORS = {
     "perspective default": sensor("perspective", WIDE),
     **{f"perspective {a}": sensor("perspective", WIDE, axis(a), AIMED, fov=50.0) for a in AXES},
     **{f"perspective tall {a}": sensor("perspective", TALL, axis(a), AIMED, fov=50.0) for a in AXES},
     "perspective cropped": sensor("perspective", CROPPED, AIMED, fov=40.0),
-    "perspective shifted": sensor("perspective", WIDE, AIMED, fov=40.0, principal_point_offset_x=0.1, principal_point_offset_y=-0.2),
-    "perspective shifted cropped": sensor("perspective", CROPPED, AIMED, fov=40.0, principal_point_offset_x=0.1, principal_point_offset_y=-0.2),
+    "perspective shifted": sensor(
+        "perspective", WIDE, AIMED, fov=40.0, principal_point_offset_x=0.1, principal_point_offset_y=-0.2
+    ),
+    "perspective shifted cropped": sensor(
+        "perspective", CROPPED, AIMED, fov=40.0, principal_point_offset_x=0.1, principal_point_offset_y=-0.2
+    ),
     "perspective clipped": sensor("perspective", WIDE, AIMED, fov=70.0, **CLIP),
     "perspective 85mm": sensor("perspective", WIDE, AIMED, '<string name="focal_length" value="85mm"/>'),
     "perspective tall 35": sensor("perspective", TALL, AIMED, '<string name="focal_length" value="35"/>'),
@@ -161,7 +185,9 @@ SENSORS = {
 }
 
 
-FILTERS = {name: f'<rfilter type="{name}"/>' for name in ("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")} | {
+FILTERS = {
+    name: f'<rfilter type="{name}"/>' for name in ("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")
+} | {
     "gaussian wide": '<rfilter type="gaussian"><float name="stddev" value="0.8"/></rfilter>',
     "lanczos two": '<rfilter type="lanczos"><integer name="lobes" value="2"/></rfilter>',
     "mitchell sharp": '<rfilter type="mitchell"><float name="B" value="0.1"/><float name="C" value="0.45"/></rfilter>',
@@ -255,7 +281,10 @@ def main() -> None:
     for family, members, make in families:
         for index, (name, xml) in enumerate(members.items()):
             lines.append(f"{family},{name},{xml}")
-            lines += make(load(sensor("perspective", FILM.format(8, 8, xml)) if family == "filter" else xml), np.random.default_rng([index, ROWS]))
+            lines += make(
+                load(sensor("perspective", FILM.format(8, 8, xml)) if family == "filter" else xml),
+                np.random.default_rng([index, ROWS]),
+            )
     (FOLDER / "scene_reference.csv").write_text("\n".join(lines) + "\n")
 
 
