@@ -275,7 +275,8 @@ mod tests {
             width: 37,
             height: 22,
             pixels: (0..37 * 22).map(|i| [value(i); 3]).collect(),
-            ..Image::default()
+            alpha: None,
+            channels: 3,
         }
     }
 

@@ -84,15 +84,21 @@ impl Scene {
         assemble::sensor(&self.sensor, aspect)
     }
 
+    /// The number of the light that a hit shape is, and the hit as that light sees it.
+    #[inline]
+    pub fn emitter_hit(&self, ray: &Ray, hit: &Hit) -> Option<(usize, EmitterHit)> {
+        self.world.emitter_hit(ray, hit).map(|(emitter, hit)| (emitter as usize, hit))
+    }
+
     /// The light that a ray ran into, if the shape is one and shines that way; `from` is where the ray was made.
     #[inline]
     pub(crate) fn emitter_seen(&self, ray: &Ray, hit: &Hit, from: Vec3) -> Option<Seen> {
-        let (emitter, hit) = self.world.emitter_hit(ray, hit)?;
-        let light = &self.emitters[emitter as usize];
+        let (emitter, hit) = self.emitter_hit(ray, hit)?;
+        let light = &self.emitters[emitter];
         let radiance = light.radiance(&hit);
         (radiance != Rgb::ZERO).then(|| Seen {
             radiance,
-            density: light.density(from, &hit) * self.selection.probability(emitter as usize),
+            density: light.density(from, &hit) * self.selection.probability(emitter),
         })
     }
 

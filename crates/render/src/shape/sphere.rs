@@ -1,4 +1,4 @@
-//! `sphere`: a sphere given by center and radius, or by a transform of the unit sphere.
+//! `sphere`: a sphere given by center and radius, or by a transform of the unit sphere; a mirroring one turns it inside out.
 //!
 //! As a light it is sampled by the solid angle of its visible cap (Shirley, Wang & Zimmerman 1996).
 
@@ -32,7 +32,8 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
     if radius <= 0.0 || !radius.is_finite() {
         return Err(properties.error("radius must be positive"));
     }
-    let side = if properties.boolean("flip_normals", false)? { -1.0 } else { 1.0 };
+    let mirrored = to_world.matrix3.determinant() < 0.0;
+    let side = if properties.boolean("flip_normals", false)? == mirrored { 1.0 } else { -1.0 };
     let rotation = to_world.matrix3 * (1.0 / scale);
     Ok(Geometry::Analytic(Arc::new(Sphere {
         center: to_world.transform_point3(DVec3::from(center)).as_vec3().into(),
@@ -43,11 +44,12 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
 }
 
 impl Sphere {
-    /// The cosine of the half angle of the cone in which `from` sees the sphere; `None` from inside or on it.
+    /// 1 − cos of the half angle of the cone in which `from` sees the sphere; `None` from inside or on it.
+    /// Not the cosine itself: small cones keep their precision.
     fn cone(&self, from: Vec3) -> Option<f32> {
         let distance_squared = (self.center - from).length_squared();
         let sin2 = self.radius * self.radius / distance_squared;
-        (sin2 < 0.9999).then(|| (1.0 - sin2).sqrt())
+        (sin2 < 0.9999).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
     }
 
     fn uv(&self, outward: Vec3) -> Vec2 {
@@ -103,7 +105,7 @@ impl Analytic for Sphere {
 impl LightGeometry for Sphere {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
         let (sin_phi, cos_phi) = sin_cos_turns(u[1]);
-        let Some(cos_max) = self.cone(from) else {
+        let Some(one_minus_cos_max) = self.cone(from) else {
             let z = 1.0 - 2.0 * u[0];
             let ring = (1.0 - z * z).max(0.0).sqrt();
             let outward = Vec3::new(ring * cos_phi, ring * sin_phi, z);
@@ -112,8 +114,6 @@ impl LightGeometry for Sphere {
         };
         let to_center = self.center - from;
         let distance = to_center.length();
-        // 1 − cos θ, not cos θ: small cones keep their precision
-        let one_minus_cos_max = (1.0 - cos_max * cos_max) / (1.0 + cos_max);
         let one_minus_cos = u[0] * one_minus_cos_max;
         let cos_theta = 1.0 - one_minus_cos;
         let sin2_theta = one_minus_cos * (2.0 - one_minus_cos);
@@ -137,7 +137,7 @@ impl LightGeometry for Sphere {
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
         match self.cone(from) {
-            Some(cos_max) => (1.0 + cos_max) / (2.0 * PI * (1.0 - cos_max * cos_max)),
+            Some(one_minus_cos_max) => 1.0 / (2.0 * PI * one_minus_cos_max),
             None => super::area_to_solid_angle(self.area(), from, position, normal),
         }
     }
