@@ -209,8 +209,8 @@ impl Cone {
             nodes.sum::<f64>() * solid_angle / (BINS.0 * BINS.1 * n * n) as f64
         };
         // odd counts share few nodes: an edge that cuts the bin does not fool two of them alike
-        let (mut n, mut coarse, mut fine) = (9, midpoints(5), midpoints(9));
-        while n < 63 && f64::abs(fine - coarse) > 2e-6 {
+        let (mut n, mut coarse, mut fine) = (19, midpoints(9), midpoints(19));
+        while n < 79 && f64::abs(fine - coarse) > 2e-6 {
             n = 2 * n + 1;
             (coarse, fine) = (fine, midpoints(n));
         }
