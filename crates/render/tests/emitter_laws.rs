@@ -75,6 +75,7 @@ const SHAPES: &[Line] = &[
     ("cylinder", "cylinder", "<scale x='0.6' y='0.6' z='1.1'/>", &[(FRONT, None), (SIDE, None)]),
     ("cylinder from inside", "cylinder", FLIP, &[([0.3, 0.2, 0.4], Some(1.0)), ([0.1, 0.0, 2.0], Some(1.0))]),
     ("obj", "obj", FACES, &[([0.4, -0.3, 3.0], Some(1.0)), ([2.5, 0.1, 0.9], None)]),
+    ("obj smooth", "obj", "", &[([0.4, -0.3, 3.0], Some(1.0)), ([2.5, 0.1, 0.9], None)]),
     ("ply", "ply", FACES, &[([0.4, -0.3, 2.0], Some(1.0)), ([-0.5, -0.4, -1.5], Some(0.0))]),
 ];
 

@@ -140,7 +140,7 @@ impl World {
         };
         let hit = EmitterHit {
             position: surface.position,
-            normal: surface.shading.n,
+            normal: surface.geometric_normal,
             uv: surface.uv,
             direction: ray.direction,
         };
