@@ -75,6 +75,7 @@ const SHAPES: &[Line] = &[
     ("cylinder", "cylinder", "<scale x='0.6' y='0.6' z='1.1'/>", &[(FRONT, None), (SIDE, None)]),
     ("cylinder from inside", "cylinder", FLIP, &[([0.3, 0.2, 0.4], Some(1.0)), ([0.1, 0.0, 2.0], Some(1.0))]),
     ("obj", "obj", FACES, &[([0.4, -0.3, 3.0], Some(1.0)), ([2.5, 0.1, 0.9], None)]),
+    ("obj smooth", "obj", "", &[([0.4, -0.3, 3.0], Some(1.0)), ([2.5, 0.1, 0.9], None)]),
     ("ply", "ply", FACES, &[([0.4, -0.3, 2.0], Some(1.0)), ([-0.5, -0.4, -1.5], Some(0.0))]),
 ];
 
@@ -209,8 +210,8 @@ impl Cone {
             nodes.sum::<f64>() * solid_angle / (BINS.0 * BINS.1 * n * n) as f64
         };
         // odd counts share few nodes: an edge that cuts the bin does not fool two of them alike
-        let (mut n, mut coarse, mut fine) = (9, midpoints(5), midpoints(9));
-        while n < 63 && f64::abs(fine - coarse) > 2e-6 {
+        let (mut n, mut coarse, mut fine) = (19, midpoints(9), midpoints(19));
+        while n < 79 && f64::abs(fine - coarse) > 2e-6 {
             n = 2 * n + 1;
             (coarse, fine) = (fine, midpoints(n));
         }

@@ -196,7 +196,7 @@ impl World {
         let surface = self.surface(shape, ray, hit, false);
         let hit = EmitterHit {
             position: surface.position,
-            normal: surface.shading.n,
+            normal: surface.geometric_normal,
             uv: surface.uv,
             direction: ray.direction,
         };
