@@ -24,7 +24,7 @@ pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     let quarter = (turns * 4.0 + 0.5) as i32;
     let x = (turns - quarter as f32 * 0.25) * (2.0 * std::f32::consts::PI);
     let x2 = x * x;
-    let sin = x + x * x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 - x2 * (1.0 / 5040.0)));
+    let sin = x + x * x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 - x2 * (1.0 / 5040.0 - x2 * (1.0 / 362_880.0))));
     let cos = 1.0 - x2 * (0.5 - x2 * (1.0 / 24.0 - x2 * (1.0 / 720.0 - x2 * (1.0 / 40_320.0))));
     let (sin, cos) = if quarter & 1 == 0 { (sin, cos) } else { (cos, -sin) };
     if quarter & 2 == 0 { (sin, cos) } else { (-sin, -cos) }

@@ -294,7 +294,8 @@ mod tests {
         for (cell, count) in counts.iter().enumerate() {
             let point = SkyPoint { cell: [cell % 37, cell / 37], fraction: [0.5; 2] };
             let expected = sky.density(&point) / (37.0 * 21.0);
-            assert!((count - expected).abs() < 4e-5, "cell {cell}: {count} for {expected}");
+            // a grid of points may lose one line at each side of a cell: 4 × 0.06 / 1500
+            assert!((count - expected).abs() < 1.6e-4, "cell {cell}: {count} for {expected}");
         }
     }
 

@@ -120,7 +120,7 @@ impl Assembly {
         let bounds = self.bounds();
         let soup = TriangleSoup { positions: &self.positions, indices: &self.indices };
         let kernel = accel::build(options.kernel, &soup, options.embree_library.as_deref())?;
-        let selection = Selection::by_power(&self.emitters, &bounds);
+        let selection = Selection::new(&self.emitters, &bounds);
         let environments = self.emitters.iter().enumerate();
         let environments =
             environments.filter(|(_, emitter)| emitter.is_environment()).map(|(i, emitter)| Environment {

@@ -151,6 +151,18 @@ impl World {
         hit
     }
 
+    /// The first surface that is no light; the ray is moved on to start behind the lights it passed.
+    pub fn first_dark(&self, ray: &mut Ray) -> Option<Hit> {
+        loop {
+            let hit = self.intersect(ray)?;
+            if self.shapes[hit.shape as usize].emitter.is_none() {
+                return Some(hit);
+            }
+            let beyond = self.vertex(ray, &hit).ray(ray.direction, ray.t_max - hit.t);
+            *ray = beyond;
+        }
+    }
+
     /// Whether anything lies on the ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
