@@ -26,7 +26,7 @@ def main() -> int:
     scene = evenlight.load_scene(ROOT / "scenes" / "demo.xml")
     errors = {}
     for sampler in SAMPLERS:
-        with tqdm(unit="sample", unit_scale=True, desc=sampler, leave=False) as bar:
+        with tqdm(unit="sample", unit_scale=True, desc=sampler, leave=False, disable=None) as bar:
 
             def show(state: dict[str, Any], bar: tqdm[Any] = bar) -> None:
                 bar.total = state["total"]

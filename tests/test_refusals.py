@@ -59,6 +59,7 @@ def refuse(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captu
         (["--max-depth", "-5"], "max_depth is -5; -1 to"),
         (["--exposure", "nan"], "'nan' is not a finite number of stops"),
         (["-D", "no_such=1"], "unknown parameter 'no_such'; known: radiance, reflectance, resx, resy"),
+        (["-D", "kernel=1"], "unknown parameter 'kernel'; known: radiance, reflectance, resx, resy"),
         (["-D", "reflectance"], "'reflectance' is not NAME=VALUE"),
         (["-D", "reflectance=blue"], "sky.xml:42: <rgb>: 'blue' is not a number"),
         (["-D", "resx=0"], "width must be 1 to 32768 pixels, not 0"),

@@ -15,6 +15,7 @@ from tqdm import tqdm
 import evenlight
 from evenlight import _core, points, tables
 from evenlight.film import Film, check_output
+from evenlight.render import read_scene
 
 __all__ = ["main"]
 
@@ -89,13 +90,7 @@ def _points(options: argparse.Namespace) -> int:
 
 
 def _load(options: argparse.Namespace) -> evenlight.Scene:
-    scene = evenlight.load_scene(
-        options.scene,
-        lenient=options.lenient,
-        allow_outside=options.allow_outside,
-        kernel=options.kernel,
-        **dict(options.define),
-    )
+    scene = read_scene(options.scene, dict(options.define), options.lenient, options.allow_outside, options.kernel)
     for warning in scene.warnings:
         print(f"evenlight: warning: {warning}", file=sys.stderr)
     return scene

@@ -96,6 +96,13 @@ def load_scene(
     >>> evenlight.load_scene("scenes/sky.xml").warnings
     ()
     """
+    return read_scene(path, params, lenient, allow_outside, kernel)
+
+
+def read_scene(
+    path: str | os.PathLike[str], params: dict[str, object], lenient: bool, allow_outside: bool, kernel: str
+) -> Scene:
+    """Do as `load_scene` does, for scene parameters of any name."""
     parameters = {name: _as_written(value) for name, value in params.items()}
     core = _core.load_scene(os.fspath(path), parameters, lenient, allow_outside, _embree_library(), kernel)
     return Scene(Path(path), parameters, kernel, tuple(core.warnings), core)
