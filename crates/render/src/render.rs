@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use evenlight_points::Seed;
 
@@ -18,7 +18,7 @@ use crate::{Error, Result};
 /// Side of a tile in pixels.
 const TILE: u32 = 16;
 
-/// How long the caller waits for tiles before it is asked again whether to go on.
+/// How long the caller is not asked again whether to go on.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Plain settings of a render.
@@ -133,16 +133,20 @@ pub fn render(
         // Tiles are merged in order, so that sums do not depend on who was faster.
         let mut waiting = BTreeMap::new();
         let mut merged = 0;
+        let mut asked = Instant::now();
         loop {
-            match finished.recv_timeout(PATIENCE) {
+            match finished.recv_timeout(PATIENCE.saturating_sub(asked.elapsed())) {
                 Ok((number, means)) => drop(waiting.insert(number, means)),
-                Err(mpsc::RecvTimeoutError::Timeout) => {
-                    let progress = Progress { samples: samples.load(Ordering::Relaxed), total, film: &film };
-                    if !go_on(progress) {
-                        stop.store(true, Ordering::Relaxed);
-                    }
-                }
+                Err(mpsc::RecvTimeoutError::Timeout) => {}
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
+            }
+            // also when tiles come in one after the other
+            if asked.elapsed() >= PATIENCE {
+                let progress = Progress { samples: samples.load(Ordering::Relaxed), total, film: &film };
+                if !go_on(progress) {
+                    stop.store(true, Ordering::Relaxed);
+                }
+                asked = Instant::now();
             }
             while let Some(means) = waiting.remove(&merged) {
                 film.merge(&tiles[merged], &means);

@@ -9,7 +9,7 @@ use std::f32::consts::{FRAC_1_PI, PI};
 
 use crate::Result;
 use crate::bsdf::gauss::{erf, erf_inverse};
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{Vec2, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::texture::slot::NumberSlot;
@@ -196,13 +196,13 @@ impl Microfacets {
             Shape::Beckmann => (-(-u[1]).ln_1p()).sqrt(),
             Shape::Ggx => (u[1] / (1.0 - u[1])).sqrt(),
         };
-        let (sin_phi, cos_phi) = (2.0 * PI * u[0]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[0]);
         self.normal_of_slope(radius * cos_phi, radius * sin_phi)
     }
 
     fn sample_visible_ggx(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
         let v = Vec3::new(wo.x * self.alpha_u, wo.y * self.alpha_v, wo.z).normalize();
-        let (sin_phi, cos_phi) = (2.0 * PI * u[0]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[0]);
         let z = (1.0 - u[1]) * (1.0 + v.z) - v.z;
         let radius = (1.0 - z * z).max(0.0).sqrt();
         let h = Vec3::new(radius * cos_phi, radius * sin_phi, z) + v;

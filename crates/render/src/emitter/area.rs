@@ -8,7 +8,7 @@ use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::Builder;
 use crate::scene::node::Node;
 use crate::scene::properties::Properties;
-use crate::shape::LightGeometry;
+use crate::shape::{LightGeometry, LightPoint};
 use crate::texture::Texture;
 use crate::{Error, Result};
 
@@ -40,15 +40,8 @@ impl Area {
 impl Emitter for Area {
     #[inline]
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightSample> {
-        let point = self.geometry.sample(from, u)?;
-        let to_light = point.position - from;
-        let distance = to_light.length();
-        let direction = to_light / distance;
-        if point.normal.dot(direction) >= 0.0 || distance == 0.0 {
-            return None;
-        }
-        let radiance = self.radiance.evaluate(point.uv);
-        Some(LightSample { direction, distance, radiance, density: point.density, delta: false })
+        let LightPoint { direction, distance, density, uv, .. } = self.geometry.sample(from, u)?;
+        Some(LightSample { direction, distance, radiance: self.radiance.evaluate(uv), density, delta: false })
     }
 
     #[inline]

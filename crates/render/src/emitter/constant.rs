@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
-use crate::geometry::{Rgb, Vec3, luminance};
+use crate::geometry::{Rgb, Vec3, luminance, sin_cos_turns};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 
@@ -23,7 +23,7 @@ impl Emitter for Constant {
     fn sample(&self, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
         let z = 1.0 - 2.0 * u[0];
         let ring = (1.0 - z * z).max(0.0).sqrt();
-        let (sin_phi, cos_phi) = (2.0 * PI * u[1]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[1]);
         Some(LightSample {
             direction: Vec3::new(ring * cos_phi, ring * sin_phi, z),
             distance: f32::INFINITY,

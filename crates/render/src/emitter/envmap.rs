@@ -1,15 +1,15 @@
 //! `envmap`: radiance from far away, given by an image in latitude–longitude form.
 //!
-//! Directions are sampled in proportion to the image's luminance times sin θ, by inverting a piecewise-constant marginal and
-//! conditional density over the cells between texel centers (Pharr, Jakob & Humphreys, "Physically Based Rendering", infinite lights).
+//! Directions are sampled in proportion to the image's luminance times sin θ (Pharr, Jakob & Humphreys, "Physically Based
+//! Rendering", infinite lights).
 
 use std::f32::consts::PI;
 use std::sync::Arc;
 
 use crate::Result;
-use crate::emitter::inversion::Inversion;
+use crate::emitter::sky::{Sky, SkyPoint};
 use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
-use crate::geometry::{Mat3A, Rgb, Vec3, luminance};
+use crate::geometry::{Mat3A, Rgb, Vec3, sin_cos_turns};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 use crate::texture::image::Image;
@@ -17,13 +17,10 @@ use crate::texture::image::Image;
 pub(crate) const ENTRY: Entry<dyn Emitter> = Entry { name: "envmap", build };
 
 struct Envmap {
-    image: Arc<Image>,
+    sky: Sky,
     scale: f32,
     to_world: Mat3A,
     to_local: Mat3A,
-    /// Cell weights of each row, and the weights of the rows.
-    rows: Vec<Inversion>,
-    marginal: Inversion,
     mean_luminance: f32,
 }
 
@@ -37,100 +34,75 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn E
         return Err(properties.error("the image must have at least 2×3 pixels"));
     }
     let rotation = Mat3A::from((to_world.matrix3 * (1.0 / to_world.matrix3.x_axis.length())).as_mat3());
-    Ok(Arc::new(Envmap::new(image, scale, rotation)))
+    Ok(Arc::new(Envmap::new(&image, scale, rotation)))
 }
 
 impl Envmap {
-    fn new(image: Arc<Image>, scale: f32, to_world: Mat3A) -> Self {
-        let light =
-            |x: usize, y: usize| luminance(Rgb::from(image.pixels[y * image.width + x % image.width]));
-        let mut sines = 0.0;
-        let rows: Vec<Inversion> = (0..image.height - 1)
-            .map(|y| {
-                let sine = (PI * (y as f32 + 0.5) / (image.height - 1) as f32).sin();
-                sines += f64::from(sine);
-                Inversion::new((0..image.width).map(|x| {
-                    0.25 * sine * (light(x, y) + light(x + 1, y) + light(x, y + 1) + light(x + 1, y + 1))
-                }))
-            })
-            .collect();
-        let marginal = Inversion::new(rows.iter().map(Inversion::total));
-        let mean_luminance = scale * (f64::from(marginal.total()) / (sines * image.width as f64)) as f32;
-        Self { scale, to_world, to_local: to_world.transpose(), rows, marginal, mean_luminance, image }
+    fn new(image: &Image, scale: f32, to_world: Mat3A) -> Self {
+        let rows = image.height - 1;
+        let sine = |row: usize| (PI * (row as f32 + 0.5) / rows as f32).sin();
+        let sky = Sky::new(image, sine);
+        let mean = sky.total_weight() / ((0..rows).map(sine).sum::<f32>() * image.width as f32);
+        Self { sky, scale, to_world, to_local: to_world.transpose(), mean_luminance: scale * mean }
     }
 
-    /// Cell and position within it of a world direction.
-    fn cell(&self, direction: Vec3) -> Cell {
+    /// Where a world direction meets the image, and sin θ there.
+    #[inline]
+    fn locate(&self, direction: Vec3) -> (SkyPoint, f32) {
+        let [width, rows] = self.sky.cells();
         let local = self.to_local * direction;
-        let u = local.x.atan2(-local.z) / (2.0 * PI);
-        let x = (u - u.floor()) * self.image.width as f32 - 0.5;
-        let y = local.y.clamp(-1.0, 1.0).acos() / PI * (self.image.height - 1) as f32;
-        let width = self.image.width as i32;
-        let column = x.floor();
-        let row = (y as usize).min(self.image.height - 2);
-        let ring = (local.x * local.x + local.z * local.z).sqrt();
-        Cell {
-            column: (column as i32).rem_euclid(width) as usize,
-            row,
-            fraction: [x - column, y - row as f32],
-            sine: ring,
-        }
+        let turns = local.x.atan2(-local.z) / (2.0 * PI);
+        // columns from the center of the first texel, shifted by a turn so that truncation rounds down
+        let x = (turns + 1.0) * width as f32 - 0.5;
+        let y = local.y.clamp(-1.0, 1.0).acos() / PI * rows as f32;
+        let (column, row) = (x as usize, (y as usize).min(rows - 1));
+        let fraction = [x - column as f32, (y - row as f32).min(1.0)];
+        let sine = (local.x * local.x + local.z * local.z).sqrt();
+        (SkyPoint { cell: [column % width, row], fraction }, sine)
     }
 
-    /// The bilinearly interpolated image.
-    fn lookup(&self, cell: &Cell) -> Rgb {
-        let width = self.image.width;
-        let next = if cell.column + 1 == width { 0 } else { cell.column + 1 };
-        let at = |x: usize, y: usize| Rgb::from(self.image.pixels[y * width + x]);
-        let [fx, fy] = cell.fraction;
-        let top = at(cell.column, cell.row) * (1.0 - fx) + at(next, cell.row) * fx;
-        let bottom = at(cell.column, cell.row + 1) * (1.0 - fx) + at(next, cell.row + 1) * fx;
-        (top * (1.0 - fy) + bottom * fy) * self.scale
+    /// Solid-angle density at a point of the image: its two coordinates cover 2π² sin θ.
+    #[inline]
+    fn solid_angle_density(&self, point: &SkyPoint, sine: f32) -> f32 {
+        if sine > 0.0 { self.sky.density(point) / (2.0 * PI * PI * sine) } else { 0.0 }
     }
-
-    /// Solid-angle density of a cell: its share of the weight over the solid angle that u, v spread over.
-    fn cell_density(&self, cell: &Cell) -> f32 {
-        let share = self.rows[cell.row].weight(cell.column) / self.marginal.total();
-        let cells = (self.image.width * self.rows.len()) as f32;
-        if cell.sine > 0.0 { share * cells / (2.0 * PI * PI * cell.sine) } else { 0.0 }
-    }
-}
-
-/// A cell between four texel centers, and a point in it.
-struct Cell {
-    column: usize,
-    row: usize,
-    fraction: [f32; 2],
-    /// sin θ at the point.
-    sine: f32,
 }
 
 impl Emitter for Envmap {
     fn sample(&self, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
-        let width = self.image.width;
-        let (row, fraction_y) = self.marginal.invert(u[1]);
-        let (column, fraction_x) = self.rows[row].invert(u[0]);
-        let theta = PI * (row as f32 + fraction_y) / (self.image.height - 1) as f32;
-        let phi = 2.0 * PI * (column as f32 + fraction_x + 0.5) / width as f32;
-        let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+        let [width, rows] = self.sky.cells();
+        let point = self.sky.sample(u);
+        let (sin_theta, cos_theta) =
+            sin_cos_turns(0.5 * (point.cell[1] as f32 + point.fraction[1]) / rows as f32);
+        let (sin_phi, cos_phi) =
+            sin_cos_turns((point.cell[0] as f32 + point.fraction[0] + 0.5) / width as f32);
         let local = Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
-        let cell = Cell { column, row, fraction: [fraction_x, fraction_y], sine: sin_theta };
-        let density = self.cell_density(&cell);
+        let density = self.solid_angle_density(&point, sin_theta);
         (density > 0.0).then(|| LightSample {
             direction: self.to_world * local,
             distance: f32::INFINITY,
-            radiance: self.lookup(&cell),
+            radiance: self.sky.color(&point) * self.scale,
             density,
             delta: false,
         })
     }
 
+    fn prefetch(&self, u: [f32; 2]) {
+        self.sky.prefetch(u);
+    }
+
     fn radiance(&self, hit: &EmitterHit) -> Rgb {
-        self.lookup(&self.cell(hit.direction))
+        self.sky.color(&self.locate(hit.direction).0) * self.scale
     }
 
     fn density(&self, _: Vec3, hit: &EmitterHit) -> f32 {
-        self.cell_density(&self.cell(hit.direction))
+        let (point, sine) = self.locate(hit.direction);
+        self.solid_angle_density(&point, sine)
+    }
+
+    fn evaluate(&self, _: Vec3, hit: &EmitterHit) -> (Rgb, f32) {
+        let (point, sine) = self.locate(hit.direction);
+        (self.sky.color(&point) * self.scale, self.solid_angle_density(&point, sine))
     }
 
     fn power(&self, scene: &SceneSphere) -> f32 {

@@ -9,9 +9,9 @@ pub mod area;
 pub mod constant;
 pub mod directional;
 pub mod envmap;
-mod inversion;
 pub mod point;
 pub mod selection;
+mod sky;
 pub mod spot;
 
 /// The sources of light that stand alone in a scene (`area` belongs to a shape).
@@ -60,11 +60,21 @@ pub trait Emitter: Send + Sync {
     /// Sample a direction from the receiver `from`.
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightSample>;
 
+    /// Have fetched what [`Emitter::sample`] will need for the same `u`: a hint, given as early as possible.
+    #[inline]
+    fn prefetch(&self, _u: [f32; 2]) {}
+
     /// Radiance leaving the hit against `hit.direction`. Delta lights are never hit.
     fn radiance(&self, hit: &EmitterHit) -> Rgb;
 
     /// Solid-angle density of [`Emitter::sample`] at the hit.
     fn density(&self, from: Vec3, hit: &EmitterHit) -> f32;
+
+    /// [`Emitter::radiance`] and [`Emitter::density`] together.
+    #[inline]
+    fn evaluate(&self, from: Vec3, hit: &EmitterHit) -> (Rgb, f32) {
+        (self.radiance(hit), self.density(from, hit))
+    }
 
     /// Emitted power, roughly (luminance): how often the light is chosen.
     fn power(&self, scene: &SceneSphere) -> f32;

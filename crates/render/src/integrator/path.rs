@@ -34,9 +34,15 @@ impl Integrator for Path {
         let mut eta = 1.0_f32;
         let mut origin = Origin { position: ray.origin, density: f32::INFINITY };
         let mut depth = 0;
+        if self.0.max_depth == 0 {
+            return measurement;
+        }
         loop {
-            let hit = scene.world.intersect(&ray);
-            if depth > 0 || !self.0.hide_emitters {
+            let chosen = numbers.bounce(depth);
+            scene.prefetch_light(&chosen);
+            let hidden = depth == 0 && self.0.hide_emitters;
+            let hit = if hidden { scene.world.first_dark(&mut ray) } else { scene.world.intersect(&ray) };
+            if !hidden {
                 measurement.radiance += throughput * self.emission(scene, &ray, hit.as_ref(), &origin);
             }
             let Some(hit) = hit else { break };
@@ -51,7 +57,6 @@ impl Integrator for Path {
             }
 
             // Next-event estimation.
-            let chosen = numbers.bounce(depth);
             if vertex.smooth {
                 measurement.radiance += throughput * self.direct(scene, &vertex, &chosen);
             }

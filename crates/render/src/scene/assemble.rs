@@ -12,7 +12,7 @@ use crate::integrator::{Mis, Transport};
 use crate::scene::build::Builder;
 use crate::scene::node::{Kind, Node};
 use crate::scene::properties::Properties;
-use crate::scene::world::{Placed, PlacedShape, World};
+use crate::scene::world::{PlacedShape, ShadingTriangle, World};
 use crate::scene::{Environment, Scene, SceneOptions};
 use crate::sensor::{self, Sensor};
 use crate::shape::rectangle::ParallelogramLight;
@@ -78,7 +78,7 @@ struct SceneParts {
 struct Assembly {
     shapes: Vec<PlacedShape>,
     emitters: Vec<Arc<dyn Emitter>>,
-    triangle_shape: Vec<u32>,
+    triangles: Vec<ShadingTriangle>,
     analytic: Vec<(u32, [Vec3; 2])>,
     positions: Vec<[f32; 3]>,
     indices: Vec<[u32; 3]>,
@@ -97,29 +97,30 @@ impl Assembly {
             self.emitters.push(Arc::new(Area::new(geometry, radiance)));
             self.emitters.len() as u32 - 1
         });
-        let placed = match geometry {
+        let analytic = match geometry {
             Geometry::Analytic(analytic) => {
                 self.analytic.push((number, analytic.bounds()));
-                Placed::Analytic(analytic)
+                Some(analytic)
             }
             Geometry::Mesh(mesh) | Geometry::Parallelogram(mesh) => {
-                let first_triangle = self.indices.len() as u32;
                 let first_vertex = self.positions.len() as u32;
                 self.positions.extend_from_slice(&mesh.positions);
                 self.indices.extend(mesh.indices.iter().map(|t| t.map(|index| index + first_vertex)));
-                self.triangle_shape.resize(self.indices.len(), number);
-                Placed::Mesh { mesh, first_triangle }
+                let triangles = 0..mesh.indices.len();
+                self.triangles
+                    .extend(triangles.map(|triangle| ShadingTriangle::new(number, &mesh, triangle)));
+                None
             }
         };
         let (smooth, needs_tangents) = (bsdf.has_smooth_lobe(), bsdf.needs_tangents());
-        self.shapes.push(PlacedShape { placed, bsdf, emitter, smooth, needs_tangents });
+        self.shapes.push(PlacedShape { analytic, bsdf, emitter, smooth, needs_tangents });
     }
 
     fn finish(self, builder: Builder, options: &SceneOptions, parts: SceneParts) -> Result<Scene> {
         let bounds = self.bounds();
         let soup = TriangleSoup { positions: &self.positions, indices: &self.indices };
         let kernel = accel::build(options.kernel, &soup, options.embree_library.as_deref())?;
-        let selection = Selection::by_power(&self.emitters, &bounds);
+        let selection = Selection::new(&self.emitters, &bounds);
         let environments = self.emitters.iter().enumerate();
         let environments =
             environments.filter(|(_, emitter)| emitter.is_environment()).map(|(i, emitter)| Environment {
@@ -130,7 +131,7 @@ impl Assembly {
             environments: environments.collect(),
             world: World {
                 kernel,
-                triangle_shape: self.triangle_shape,
+                triangles: self.triangles,
                 shapes: self.shapes,
                 analytic: self.analytic,
                 bounds,

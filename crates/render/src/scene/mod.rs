@@ -10,6 +10,7 @@ use crate::emitter::{Emitter, EmitterHit, LightSample};
 use crate::film::FilmSettings;
 use crate::geometry::{Ray, Rgb, Vec3};
 use crate::integrator::Transport;
+use crate::sampler::BounceNumbers;
 use crate::scene::node::Node;
 use crate::scene::world::{Hit, World};
 use crate::sensor::Sensor;
@@ -72,10 +73,8 @@ impl Environment {
     #[inline]
     pub(crate) fn seen(&self, direction: Vec3) -> Seen {
         let hit = EmitterHit { position: Vec3::ZERO, normal: Vec3::ZERO, uv: glam::Vec2::ZERO, direction };
-        Seen {
-            radiance: self.emitter.radiance(&hit),
-            density: self.emitter.density(Vec3::ZERO, &hit) * self.probability,
-        }
+        let (radiance, density) = self.emitter.evaluate(Vec3::ZERO, &hit);
+        Seen { radiance, density: density * self.probability }
     }
 }
 
@@ -85,16 +84,34 @@ impl Scene {
         assemble::sensor(&self.sensor, aspect)
     }
 
+    /// The number of the light that a hit shape is, and the hit as that light sees it.
+    #[inline]
+    pub fn emitter_hit(&self, ray: &Ray, hit: &Hit) -> Option<(usize, EmitterHit)> {
+        self.world.emitter_hit(ray, hit).map(|(emitter, hit)| (emitter as usize, hit))
+    }
+
     /// The light that a ray ran into, if the shape is one and shines that way; `from` is where the ray was made.
     #[inline]
     pub(crate) fn emitter_seen(&self, ray: &Ray, hit: &Hit, from: Vec3) -> Option<Seen> {
-        let (emitter, hit) = self.world.emitter_hit(ray, hit)?;
-        let light = &self.emitters[emitter as usize];
+        let (emitter, hit) = self.emitter_hit(ray, hit)?;
+        let light = &self.emitters[emitter];
         let radiance = light.radiance(&hit);
         (radiance != Rgb::ZERO).then(|| Seen {
             radiance,
-            density: light.density(from, &hit) * self.selection.probability(emitter as usize),
+            density: light.density(from, &hit) * self.selection.probability(emitter),
         })
+    }
+
+    /// Have fetched what [`Scene::sample_light`] will need for the same numbers.
+    #[inline]
+    pub(crate) fn prefetch_light(&self, numbers: &BounceNumbers) {
+        // only environments have anything to fetch
+        if self.environments.is_empty() {
+            return;
+        }
+        if let Some((emitter, _)) = self.selection.sample(numbers.light_choice) {
+            self.emitters[emitter].prefetch(numbers.light);
+        }
     }
 
     /// Choose a light and a direction towards it.

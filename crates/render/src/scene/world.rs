@@ -22,27 +22,85 @@ pub struct Hit {
     pub t: f32,
     /// Which shape.
     pub shape: u32,
-    /// The triangle in the shape's mesh and its barycentric coordinates; all 0 for analytic shapes.
+    /// The triangle of the ray kernel and its barycentric coordinates; all 0 for analytic shapes.
     triangle: u32,
     barycentric: [f32; 2],
 }
 
-/// The geometry of a placed shape.
-pub(crate) enum Placed {
-    /// Triangles in the ray kernel, from this one on.
-    Mesh {
-        /// The mesh.
-        mesh: Mesh,
-        /// Number of its first triangle in the kernel.
-        first_triangle: u32,
-    },
-    /// A surface with its own intersection test.
-    Analytic(Arc<dyn Analytic>),
+/// All that shading asks of a triangle, in one place: hits are scattered over memory, and each should wait for it once.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct ShadingTriangle {
+    shape: u32,
+    /// Whether all normals are the geometric one.
+    flat: bool,
+    geometric_normal: [f32; 3],
+    /// The first corner, and from it to the others.
+    position: [f32; 3],
+    edges: [[f32; 3]; 2],
+    /// At the corners; the geometric normal where the mesh has none.
+    normals: [[f32; 3]; 3],
+    /// At the corners; barycentric coordinates where the mesh has none.
+    uvs: [[f32; 2]; 3],
+}
+
+impl ShadingTriangle {
+    /// The `triangle`th triangle of a mesh.
+    pub(crate) fn new(shape: u32, mesh: &Mesh, triangle: usize) -> Self {
+        let indices = mesh.indices[triangle].map(|index| index as usize);
+        let [a, b, c] = indices.map(|index| Vec3::from(mesh.positions[index]));
+        let (ab, ac) = (b - a, c - a);
+        let geometric_normal: [f32; 3] = ab.cross(ac).normalize_or(Vec3::Z).into();
+        let normals =
+            mesh.normals.as_ref().map_or([geometric_normal; 3], |normals| indices.map(|i| normals[i]));
+        let nearly = |normal: [f32; 3]| Vec3::from(normal).abs_diff_eq(Vec3::from(geometric_normal), 1e-6);
+        Self {
+            shape,
+            flat: normals.into_iter().all(nearly),
+            geometric_normal,
+            position: a.into(),
+            edges: [ab.into(), ac.into()],
+            normals,
+            uvs: mesh
+                .uvs
+                .as_ref()
+                .map_or([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], |uvs| indices.map(|index| uvs[index])),
+        }
+    }
+
+    /// Interpolate at a hit.
+    #[inline]
+    fn surface(&self, [v, w]: [f32; 2], tangents: bool) -> Surface {
+        let (ab, ac) = (Vec3::from(self.edges[0]), Vec3::from(self.edges[1]));
+        let geometric_normal = Vec3::from(self.geometric_normal);
+        let normal = if self.flat {
+            geometric_normal
+        } else {
+            let [na, nb, nc] = self.normals.map(Vec3::from);
+            (na * (1.0 - v - w) + nb * v + nc * w).normalize_or(geometric_normal)
+        };
+        let [ta, tb, tc] = self.uvs.map(Vec2::from);
+        let mut surface = Surface {
+            position: Vec3::from(self.position) + ab * v + ac * w,
+            geometric_normal: geometric_normal * 1.0_f32.copysign(geometric_normal.dot(normal)),
+            shading: Frame::from_normal(normal),
+            uv: ta + (tb - ta) * v + (tc - ta) * w,
+            dp_du: Vec3::ZERO,
+            dp_dv: Vec3::ZERO,
+        };
+        if tangents {
+            let (s, t) = (surface.shading.s, surface.shading.t);
+            (surface.dp_du, surface.dp_dv) = tangents_of(ab, ac, [tb - ta, tc - ta]).unwrap_or((s, t));
+            surface.shading = Frame::from_normal_and_tangent(normal, surface.dp_du);
+        }
+        surface
+    }
 }
 
 /// A shape in the world.
 pub(crate) struct PlacedShape {
-    pub(crate) placed: Placed,
+    /// The surface, unless it is triangles in the ray kernel.
+    pub(crate) analytic: Option<Arc<dyn Analytic>>,
     pub(crate) bsdf: Arc<dyn Bsdf>,
     /// Number of the light that it is.
     pub(crate) emitter: Option<u32>,
@@ -53,8 +111,8 @@ pub(crate) struct PlacedShape {
 /// All shapes of a scene.
 pub struct World {
     pub(crate) kernel: Box<dyn RayKernel>,
-    /// The shape of each triangle of the kernel.
-    pub(crate) triangle_shape: Vec<u32>,
+    /// The triangles of the kernel, as shading sees them.
+    pub(crate) triangles: Vec<ShadingTriangle>,
     pub(crate) shapes: Vec<PlacedShape>,
     /// The analytic shapes, with their bounding boxes; few enough to try one after the other.
     pub(crate) analytic: Vec<(u32, [Vec3; 2])>,
@@ -78,12 +136,8 @@ impl World {
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let mut hit = self.kernel.closest(ray).map(|TriangleHit { t, u, v, triangle }| {
-            let shape = self.triangle_shape[triangle as usize];
-            let first = match &self.shapes[shape as usize].placed {
-                Placed::Mesh { first_triangle, .. } => *first_triangle,
-                Placed::Analytic(_) => 0,
-            };
-            Hit { t, shape, triangle: triangle - first, barycentric: [u, v] }
+            let shape = self.triangles[triangle as usize].shape;
+            Hit { t, shape, triangle, barycentric: [u, v] }
         });
         if !self.analytic.is_empty() {
             let mut ray = Ray { t_max: hit.map_or(ray.t_max, |hit| hit.t), ..*ray };
@@ -95,6 +149,18 @@ impl World {
             }
         }
         hit
+    }
+
+    /// The first surface that is no light; the ray is moved on to start behind the lights it passed.
+    pub fn first_dark(&self, ray: &mut Ray) -> Option<Hit> {
+        loop {
+            let hit = self.intersect(ray)?;
+            if self.shapes[hit.shape as usize].emitter.is_none() {
+                return Some(hit);
+            }
+            let beyond = self.vertex(ray, &hit).ray(ray.direction, ray.t_max - hit.t);
+            *ray = beyond;
+        }
     }
 
     /// Whether anything lies on the ray.
@@ -111,20 +177,25 @@ impl World {
             let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
             !(enter > leave * 1.0001 || leave < 0.0 || enter > ray.t_max)
         });
-        near.filter_map(move |&(shape, _)| match &self.shapes[shape as usize].placed {
-            Placed::Analytic(analytic) => analytic.intersect(&ray).map(|t| (shape, t)),
-            Placed::Mesh { .. } => None,
+        near.filter_map(move |&(shape, _)| {
+            let analytic = self.shapes[shape as usize].analytic.as_ref()?;
+            analytic.intersect(&ray).map(|t| (shape, t))
         })
+    }
+
+    #[inline]
+    fn surface(&self, shape: &PlacedShape, ray: &Ray, hit: &Hit, tangents: bool) -> Surface {
+        match &shape.analytic {
+            None => self.triangles[hit.triangle as usize].surface(hit.barycentric, tangents),
+            Some(analytic) => analytic.surface(ray.origin + ray.direction * hit.t),
+        }
     }
 
     /// Everything about a hit that scattering needs.
     #[inline]
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex<'_> {
         let shape = &self.shapes[hit.shape as usize];
-        let surface = match &shape.placed {
-            Placed::Mesh { mesh, .. } => mesh_surface(mesh, hit, shape.needs_tangents),
-            Placed::Analytic(analytic) => analytic.surface(ray.origin + ray.direction * hit.t),
-        };
+        let surface = self.surface(shape, ray, hit, shape.needs_tangents);
         let wo = surface.shading.to_local(-ray.direction);
         Vertex { surface, wo, bsdf: &*shape.bsdf, smooth: shape.smooth }
     }
@@ -134,13 +205,10 @@ impl World {
     pub(crate) fn emitter_hit(&self, ray: &Ray, hit: &Hit) -> Option<(u32, EmitterHit)> {
         let shape = &self.shapes[hit.shape as usize];
         let emitter = shape.emitter?;
-        let surface = match &shape.placed {
-            Placed::Mesh { mesh, .. } => mesh_surface(mesh, hit, false),
-            Placed::Analytic(analytic) => analytic.surface(ray.origin + ray.direction * hit.t),
-        };
+        let surface = self.surface(shape, ray, hit, false);
         let hit = EmitterHit {
             position: surface.position,
-            normal: surface.shading.n,
+            normal: surface.geometric_normal,
             uv: surface.uv,
             direction: ray.direction,
         };
@@ -159,7 +227,7 @@ impl World {
 
     /// How many triangles the ray kernel holds.
     pub fn triangle_count(&self) -> usize {
-        self.triangle_shape.len()
+        self.triangles.len()
     }
 
     /// The name of the ray kernel.
@@ -185,47 +253,8 @@ impl Vertex<'_> {
     }
 }
 
-/// Interpolate a mesh at a hit.
-#[inline]
-fn mesh_surface(mesh: &Mesh, hit: &Hit, tangents: bool) -> Surface {
-    let [a, b, c] = mesh.indices[hit.triangle as usize];
-    let (ia, ib, ic) = (a as usize, b as usize, c as usize);
-    let (v, w) = (hit.barycentric[0], hit.barycentric[1]);
-    let a = Vec3::from(mesh.positions[ia]);
-    let (ab, ac) = (Vec3::from(mesh.positions[ib]) - a, Vec3::from(mesh.positions[ic]) - a);
-    let geometric_normal = ab.cross(ac).normalize_or(Vec3::Z);
-    let normal = match &mesh.normals {
-        None => geometric_normal,
-        Some(normals) => {
-            let weighted = Vec3::from(normals[ia]) * (1.0 - v - w)
-                + Vec3::from(normals[ib]) * v
-                + Vec3::from(normals[ic]) * w;
-            weighted.normalize_or(geometric_normal)
-        }
-    };
-    let corners =
-        mesh.uvs.as_ref().map(|uvs| [Vec2::from(uvs[ia]), Vec2::from(uvs[ib]), Vec2::from(uvs[ic])]);
-    let uv = corners.map_or(Vec2::new(v, w), |[ta, tb, tc]| ta + (tb - ta) * v + (tc - ta) * w);
-    let mut surface = Surface {
-        position: a + ab * v + ac * w,
-        geometric_normal: geometric_normal * 1.0_f32.copysign(geometric_normal.dot(normal)),
-        shading: Frame::from_normal(normal),
-        uv,
-        dp_du: Vec3::ZERO,
-        dp_dv: Vec3::ZERO,
-    };
-    if tangents {
-        (surface.dp_du, surface.dp_dv) = corners
-            .and_then(|corners| tangents_of(ab, ac, corners))
-            .unwrap_or((surface.shading.s, surface.shading.t));
-        surface.shading = Frame::from_normal_and_tangent(normal, surface.dp_du);
-    }
-    surface
-}
-
-/// Derivatives of the position by the texture coordinates; `None` where these are degenerate.
-fn tangents_of(ab: Vec3, ac: Vec3, [ta, tb, tc]: [Vec2; 3]) -> Option<(Vec3, Vec3)> {
-    let (u, v) = (tb - ta, tc - ta);
+/// Derivatives of the position by the texture coordinates; `None` where their changes along the edges (`u`, `v`) are degenerate.
+fn tangents_of(ab: Vec3, ac: Vec3, [u, v]: [Vec2; 2]) -> Option<(Vec3, Vec3)> {
     let determinant = u.perp_dot(v);
     let inverse = 1.0 / determinant;
     (determinant != 0.0 && inverse.is_finite())

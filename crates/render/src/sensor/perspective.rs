@@ -45,7 +45,7 @@ impl Projection {
         let extent = [-2.0 * tangent, -2.0 * tangent / aspect];
         Ok(Self {
             to_world: to_world.as_affine3a(),
-            center: [0, 1].map(|axis| (-extent[axis] * (0.5 + offset[axis])) as f32),
+            center: [0, 1].map(|axis| (extent[axis] * (offset[axis] - 0.5)) as f32),
             slope: extent.map(|x| x as f32),
             near,
             far,

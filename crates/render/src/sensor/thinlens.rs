@@ -1,10 +1,9 @@
 //! `thinlens`: a perspective camera with a round lens: what is not at `focus_distance` is blurred.
 
-use std::f32::consts::PI;
 use std::sync::Arc;
 
 use crate::Result;
-use crate::geometry::{Ray, Vec3};
+use crate::geometry::{Ray, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::sensor::perspective::Projection;
@@ -31,7 +30,7 @@ fn build(properties: &Properties<'_>, _: &mut Builder, aspect: f64) -> Result<Ar
 impl Sensor for ThinLens {
     fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
         let focus = self.projection.local(film) * self.focus_distance;
-        let (sin_phi, cos_phi) = (2.0 * PI * lens[1]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(lens[1]);
         let radius = self.aperture_radius * lens[0].sqrt();
         let origin = Vec3::new(radius * cos_phi, radius * sin_phi, 0.0);
         self.projection.ray(origin, focus - origin)

@@ -1,4 +1,4 @@
-//! `cylinder`: an open cylinder from `p0` to `p1`, facing outwards.
+//! `cylinder`: an open cylinder from `p0` to `p1`, facing outwards; `to_world` may scale its axis by another factor.
 
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -6,18 +6,16 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::Result;
-use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3};
+use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
-use crate::shape::{
-    Analytic, Entry, Geometry, LightGeometry, LightPoint, area_to_solid_angle, to_world, uniform_scale,
-};
+use crate::shape::{Analytic, Entry, Geometry, LightGeometry, LightPoint, area_to_solid_angle, to_world};
 
 pub(crate) const ENTRY: Entry = Entry { name: "cylinder", build };
 
 struct Cylinder {
     base: Vec3,
-    /// `n` is the axis; `s` is where v's angle starts.
+    /// `n` is the axis; `s` is where u begins. Left-handed in a mirroring transform.
     frame: Frame,
     length: f32,
     radius: f32,
@@ -26,21 +24,34 @@ struct Cylinder {
 
 fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
     let to_world = to_world(properties)?;
-    let scale = uniform_scale(properties, &to_world)?;
     let p0 = DVec3::from(properties.optional_vector("p0")?.unwrap_or_default());
     let p1 = DVec3::from(properties.optional_vector("p1")?.unwrap_or([0.0, 0.0, 1.0]));
-    let radius = f64::from(properties.float("radius", 1.0)?) * scale;
-    let (p0, p1) = (to_world.transform_point3(p0), to_world.transform_point3(p1));
-    let length = p0.distance(p1);
-    if !(radius > 0.0 && length > 0.0 && (radius * length).is_finite()) {
-        return Err(properties.error("radius and length must be positive"));
+    let radius = f64::from(properties.float("radius", 1.0)?);
+    let axis = (p1 - p0).try_normalize();
+    let refusal = || properties.error("radius and length must be positive");
+    let axis = axis.ok_or_else(refusal)?;
+
+    // The frame is chosen before the transform, and goes with it.
+    let local = Frame::from_normal(axis.as_vec3().into());
+    let [s, t, n] = [local.s, local.t, local.n].map(|side| to_world.matrix3 * side.as_dvec3());
+    let scale = s.length();
+    let skew = [s.dot(t), t.dot(n), n.dot(s)].map(|dot| dot.abs() / (scale * scale.max(n.length())));
+    if (t.length() - scale).abs() > 1e-4 * scale || skew.iter().any(|skew| *skew > 1e-4) {
+        return Err(properties.error("to_world must keep the cylinder round and straight"));
     }
     let side = if properties.boolean("flip_normals", false)? { -1.0 } else { 1.0 };
+    let [s, t, n] = [s, t, n].map(|side| side.normalize().as_vec3().into());
+    let end = to_world.transform_point3(p1);
+    let base = to_world.transform_point3(p0);
+    let (length, radius) = (base.distance(end) as f32, (radius * scale) as f32);
+    if !(radius > 0.0 && length > 0.0 && (radius * length).is_finite()) {
+        return Err(refusal());
+    }
     Ok(Geometry::Analytic(Arc::new(Cylinder {
-        base: p0.as_vec3().into(),
-        frame: Frame::from_normal(((p1 - p0) / length).as_vec3().into()),
-        length: length as f32,
-        radius: radius as f32,
+        base: base.as_vec3().into(),
+        frame: Frame { s, t, n },
+        length,
+        radius,
         side,
     })))
 }
@@ -87,7 +98,7 @@ impl Analytic for Cylinder {
         let phi = local.y.atan2(local.x);
         let phi = if phi < 0.0 { phi + 2.0 * PI } else { phi };
         let normal = outward * self.side;
-        let dp_du = self.frame.n.cross(outward) * (2.0 * PI * self.radius);
+        let dp_du = self.frame.to_world(Vec3::new(-local.y, local.x, 0.0) / ring) * (2.0 * PI * self.radius);
         Surface {
             position: self.base + self.frame.n * local.z + outward * self.radius,
             geometric_normal: normal,
@@ -101,12 +112,11 @@ impl Analytic for Cylinder {
 
 impl LightGeometry for Cylinder {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
-        let (sin_phi, cos_phi) = (2.0 * PI * u[0]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[0]);
         let outward = self.frame.to_world(Vec3::new(cos_phi, sin_phi, 0.0));
         let position = self.base + outward * self.radius + self.frame.n * (u[1] * self.length);
         let normal = outward * self.side;
-        let density = self.density(from, position, normal);
-        (density > 0.0).then_some(LightPoint { position, normal, uv: Vec2::from(u), density })
+        LightPoint::by_area(self.area(), from, position, normal, Vec2::from(u))
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {

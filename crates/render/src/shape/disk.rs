@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::Result;
-use crate::geometry::{Affine3A, Frame, Ray, Surface, Vec2, Vec3};
+use crate::geometry::{Affine3A, Frame, Ray, Surface, Vec2, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::shape::{Analytic, Entry, Geometry, LightGeometry, LightPoint, area_to_solid_angle, to_world};
@@ -85,12 +85,10 @@ impl Analytic for Disk {
 impl LightGeometry for Disk {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
         let radius = u[0].sqrt();
-        let (sin_phi, cos_phi) = (2.0 * PI * u[1]).sin_cos();
+        let (sin_phi, cos_phi) = sin_cos_turns(u[1]);
         let local = Vec3::new(radius * cos_phi, radius * sin_phi, 0.0);
         let position = self.to_world.transform_point3a(local);
-        let density = self.density(from, position, self.normal);
-        let uv = Vec2::new(radius, u[1]);
-        (density > 0.0).then_some(LightPoint { position, normal: self.normal, uv, density })
+        LightPoint::by_area(self.area, from, position, self.normal, Vec2::new(radius, u[1]))
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {

@@ -76,9 +76,30 @@ pub struct LightPoint {
     pub normal: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
+    /// Unit direction from the receiver to the point.
+    pub direction: Vec3,
+    /// How far it is.
+    pub distance: f32,
     /// Density with respect to solid angle at the receiver.
     pub density: f32,
 }
+
+impl LightPoint {
+    /// A point chosen evenly over a surface of this area; `None` where the receiver does not see its front.
+    #[inline]
+    pub(crate) fn by_area(area: f32, from: Vec3, position: Vec3, normal: Vec3, uv: Vec2) -> Option<Self> {
+        let to_point = position - from;
+        let distance_squared = to_point.length_squared();
+        let distance = distance_squared.sqrt();
+        let direction = to_point / distance;
+        let cosine = -normal.dot(direction);
+        let density = distance_squared / (cosine * area);
+        (cosine > GRAZING).then_some(Self { position, normal, uv, direction, distance, density })
+    }
+}
+
+/// Cosines below this count as not seen: their densities over solid angle would overflow.
+const GRAZING: f32 = 1e-6;
 
 /// A surface that light can be sampled from.
 pub trait LightGeometry: Send + Sync {
@@ -98,7 +119,7 @@ pub(crate) fn area_to_solid_angle(area: f32, from: Vec3, position: Vec3, normal:
     let to = position - from;
     let distance_squared = to.length_squared();
     let cosine = normal.dot(to).abs() / distance_squared.sqrt();
-    if cosine > 1e-6 { distance_squared / (cosine * area) } else { 0.0 }
+    if cosine > GRAZING { distance_squared / (cosine * area) } else { 0.0 }
 }
 
 /// A shape: geometry, how it scatters and what it emits.

@@ -1,4 +1,4 @@
-//! `sphere`: a sphere given by center and radius, or by a transform of the unit sphere.
+//! `sphere`: a sphere given by center and radius, or by a transform of the unit sphere; a mirroring one turns it inside out.
 //!
 //! As a light it is sampled by the solid angle of its visible cap (Shirley, Wang & Zimmerman 1996).
 
@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::Result;
-use crate::geometry::{Frame, Mat3A, Ray, Surface, Vec2, Vec3};
+use crate::geometry::{Frame, Mat3A, Ray, Surface, Vec2, Vec3, sin_cos_turns};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::shape::{Analytic, Entry, Geometry, LightGeometry, LightPoint, to_world, uniform_scale};
@@ -32,7 +32,8 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
     if radius <= 0.0 || !radius.is_finite() {
         return Err(properties.error("radius must be positive"));
     }
-    let side = if properties.boolean("flip_normals", false)? { -1.0 } else { 1.0 };
+    let mirrored = to_world.matrix3.determinant() < 0.0;
+    let side = if properties.boolean("flip_normals", false)? == mirrored { 1.0 } else { -1.0 };
     let rotation = to_world.matrix3 * (1.0 / scale);
     Ok(Geometry::Analytic(Arc::new(Sphere {
         center: to_world.transform_point3(DVec3::from(center)).as_vec3().into(),
@@ -43,11 +44,12 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Geometry> {
 }
 
 impl Sphere {
-    /// The cosine of the half angle of the cone in which `from` sees the sphere; `None` from inside or on it.
+    /// 1 − cos of the half angle of the cone in which `from` sees the sphere; `None` from inside or on it.
+    /// Not the cosine itself: small cones keep their precision.
     fn cone(&self, from: Vec3) -> Option<f32> {
         let distance_squared = (self.center - from).length_squared();
         let sin2 = self.radius * self.radius / distance_squared;
-        (sin2 < 0.9999).then(|| (1.0 - sin2).sqrt())
+        (sin2 < 0.9999).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
     }
 
     fn uv(&self, outward: Vec3) -> Vec2 {
@@ -102,19 +104,16 @@ impl Analytic for Sphere {
 
 impl LightGeometry for Sphere {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
-        let (sin_phi, cos_phi) = (2.0 * PI * u[1]).sin_cos();
-        let Some(cos_max) = self.cone(from) else {
+        let (sin_phi, cos_phi) = sin_cos_turns(u[1]);
+        let Some(one_minus_cos_max) = self.cone(from) else {
             let z = 1.0 - 2.0 * u[0];
             let ring = (1.0 - z * z).max(0.0).sqrt();
             let outward = Vec3::new(ring * cos_phi, ring * sin_phi, z);
             let (position, normal) = (self.center + outward * self.radius, outward * self.side);
-            let density = self.density(from, position, normal);
-            return (density > 0.0).then_some(LightPoint { position, normal, uv: self.uv(outward), density });
+            return LightPoint::by_area(self.area(), from, position, normal, self.uv(outward));
         };
         let to_center = self.center - from;
         let distance = to_center.length();
-        // 1 − cos θ, not cos θ: small cones keep their precision
-        let one_minus_cos_max = (1.0 - cos_max * cos_max) / (1.0 + cos_max);
         let one_minus_cos = u[0] * one_minus_cos_max;
         let cos_theta = 1.0 - one_minus_cos;
         let sin2_theta = one_minus_cos * (2.0 - one_minus_cos);
@@ -127,17 +126,18 @@ impl LightGeometry for Sphere {
         let sin_alpha = (1.0 - cos_alpha * cos_alpha).max(0.0).sqrt();
         let frame = Frame::from_normal(-to_center / distance);
         let outward = frame.to_world(Vec3::new(sin_alpha * cos_phi, sin_alpha * sin_phi, cos_alpha));
-        Some(LightPoint {
-            position: self.center + outward * self.radius,
-            normal: outward * self.side,
-            uv: self.uv(outward),
-            density: 1.0 / (2.0 * PI * one_minus_cos_max),
-        })
+        let position = self.center + outward * self.radius;
+        let (normal, to_point) = (outward * self.side, position - from);
+        let distance = to_point.length();
+        let direction = to_point / distance;
+        let density = 1.0 / (2.0 * PI * one_minus_cos_max);
+        let seen = distance > 0.0 && normal.dot(direction) < 0.0;
+        seen.then(|| LightPoint { position, normal, uv: self.uv(outward), direction, distance, density })
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
         match self.cone(from) {
-            Some(cos_max) => (1.0 + cos_max) / (2.0 * PI * (1.0 - cos_max * cos_max)),
+            Some(one_minus_cos_max) => 1.0 / (2.0 * PI * one_minus_cos_max),
             None => super::area_to_solid_angle(self.area(), from, position, normal),
         }
     }

@@ -46,11 +46,8 @@ pub(crate) fn place(mut mesh: Mesh, options: &MeshOptions) -> Mesh {
     mesh
 }
 
-/// Apply a transform to positions and normals.
+/// Apply a transform to positions and normals; normals become unit vectors.
 pub(crate) fn transform(mesh: &mut Mesh, to_world: &DAffine3) {
-    if *to_world == DAffine3::IDENTITY {
-        return;
-    }
     for position in &mut mesh.positions {
         *position = to_world.transform_point3(DVec3::from(position.map(f64::from))).as_vec3().into();
     }
@@ -81,6 +78,14 @@ fn vertex_normals(mesh: &Mesh) -> Vec<[f32; 3]> {
     normals.into_iter().map(|normal| normal.normalize_or(Vec3::X).into()).collect()
 }
 
+/// The corners of a triangle, counterclockwise as seen from the side of its vertex normals: mirrored meshes are not.
+fn facing_outwards(mesh: &Mesh, [a, b, c]: [u32; 3]) -> [u32; 3] {
+    let Some(normals) = &mesh.normals else { return [a, b, c] };
+    let outward: Vec3 = [a, b, c].iter().map(|&index| Vec3::from(normals[index as usize])).sum();
+    let [pa, pb, pc] = [a, b, c].map(|index| Vec3::from(mesh.positions[index as usize]));
+    if (pb - pa).cross(pc - pa).dot(outward) < 0.0 { [a, c, b] } else { [a, b, c] }
+}
+
 /// A mesh as a light: a triangle is chosen by area, then a point on it uniformly.
 pub(crate) struct TriangleLight {
     corners: Vec<[Vec3; 3]>,
@@ -92,9 +97,10 @@ pub(crate) struct TriangleLight {
 impl TriangleLight {
     /// The light of a mesh.
     pub(crate) fn new(mesh: &Mesh) -> Self {
-        let corners: Vec<_> =
-            (0..mesh.indices.len()).map(|i| [0, 1, 2].map(|k| corner(mesh, i, k))).collect();
+        let indices: Vec<_> = mesh.indices.iter().map(|&triangle| facing_outwards(mesh, triangle)).collect();
+        let position = |index: u32| Vec3::from(mesh.positions[index as usize]);
         let uv = |index: u32| mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[index as usize].into());
+        let corners: Vec<_> = indices.iter().map(|triangle| triangle.map(position)).collect();
         let mut total = 0.0_f64;
         let cumulative_area = corners.iter().map(|[a, b, c]| {
             total += f64::from(0.5 * (*b - *a).cross(*c - *a).length());
@@ -102,7 +108,7 @@ impl TriangleLight {
         });
         Self {
             cumulative_area: cumulative_area.collect(),
-            uvs: mesh.indices.iter().map(|triangle| triangle.map(uv)).collect(),
+            uvs: indices.iter().map(|triangle| triangle.map(uv)).collect(),
             corners,
         }
     }
@@ -110,8 +116,9 @@ impl TriangleLight {
 
 impl LightGeometry for TriangleLight {
     fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightPoint> {
+        let last = self.corners.len().checked_sub(1)?;
         let target = u[0] * self.area();
-        let chosen = self.cumulative_area.partition_point(|&sum| sum <= target).min(self.corners.len() - 1);
+        let chosen = self.cumulative_area.partition_point(|&sum| sum <= target).min(last);
         let below = if chosen == 0 { 0.0 } else { self.cumulative_area[chosen - 1] };
         let width = self.cumulative_area[chosen] - below;
         let within = if width > 0.0 { ((target - below) / width).clamp(0.0, 1.0) } else { 0.5 };
@@ -121,9 +128,8 @@ impl LightGeometry for TriangleLight {
         let position = a + (b - a) * v + (c - a) * w;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let [uv_a, uv_b, uv_c] = self.uvs[chosen];
-        let density = area_to_solid_angle(self.area(), from, position, normal);
         let uv = uv_a + (uv_b - uv_a) * v + (uv_c - uv_a) * w;
-        (density > 0.0).then_some(LightPoint { position, normal, uv, density })
+        LightPoint::by_area(self.area(), from, position, normal, uv)
     }
 
     fn density(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
