@@ -193,11 +193,8 @@ impl<'a> Job<'a> {
         if let Some(filter) = &settings.filter {
             film.filter = crate::filter::Filter::by_name(filter)?;
         }
-        let max_depth = settings.max_depth.unwrap_or(scene.transport.max_depth);
         let transport = Transport {
-            max_depth,
-            // paths without any edge do not even see lights
-            hide_emitters: scene.transport.hide_emitters || max_depth == 0,
+            max_depth: settings.max_depth.unwrap_or(scene.transport.max_depth),
             mis: settings.mis,
             ..scene.transport
         };
