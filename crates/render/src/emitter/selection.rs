@@ -1,4 +1,4 @@
-//! Which light to sample: half of the time in proportion to power, half of the time any of them.
+//! Which light to sample: half of the time in proportion to power, half of the time any that is not dark.
 //!
 //! Power alone starves lights that are weak but near; with the even share, no light is chosen less often than half as often as if all
 //! were alike (a defensive mixture: Hesterberg 1995, "Weighted Average Importance Sampling and Defensive Mixture Distributions").
@@ -11,6 +11,8 @@ use crate::emitter::{Emitter, SceneSphere};
 pub struct Selection {
     cumulative: Vec<f32>,
     probability: Vec<f32>,
+    /// The last light that is not dark.
+    last: Option<usize>,
 }
 
 impl Selection {
@@ -22,21 +24,23 @@ impl Selection {
             powers.fill(1.0);
         }
         let total: f32 = powers.iter().sum();
-        let even = 1.0 / powers.len() as f32;
-        let probability: Vec<f32> = powers.iter().map(|power| 0.5 * (power / total + even)).collect();
+        let even = 1.0 / powers.iter().filter(|power| **power > 0.0).count() as f32;
+        let share = |&power: &f32| if power > 0.0 { 0.5 * (power / total + even) } else { 0.0 };
+        let probability: Vec<f32> = powers.iter().map(share).collect();
+        let last = probability.iter().rposition(|&p| p > 0.0);
         let mut sum = 0.0;
         let cumulative = probability.iter().map(|p| {
             sum += p;
             sum
         });
-        Self { cumulative: cumulative.collect(), probability }
+        Self { cumulative: cumulative.collect(), probability, last }
     }
 
     /// The chosen light and its probability; `None` without lights.
     #[inline]
     pub fn sample(&self, u: f32) -> Option<(usize, f32)> {
-        let last = self.probability.len().checked_sub(1)?;
-        let chosen = self.cumulative.partition_point(|&sum| sum <= u).min(last);
+        // rounding at the upper end must not choose a dark light
+        let chosen = self.cumulative.partition_point(|&sum| sum <= u).min(self.last?);
         Some((chosen, self.probability[chosen]))
     }
 

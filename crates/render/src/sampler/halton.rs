@@ -2,13 +2,15 @@
 //! permutations. Any number of samples is as good as any other, but there is no common structure of pairs in high dimensions.
 //!
 //! A digit d of prime p becomes `(factor · d + shift) mod p` with factor and shift hashed from all digits before it (Matoušek 1998,
-//! "On the L2-discrepancy for anchored boxes"): mean and variance are those of Owen's uniform permutations.
+//! "On the L2-discrepancy for anchored boxes"): mean and variance are those of Owen's uniform permutations. Zeros add nothing to
+//! the prefix, so that one hash serves all of a run of zeros, and the endless run after the last digit of the index: its bits as a
+//! fraction, digit after digit in base p, are the shifts.
 
 use std::sync::LazyLock;
 
 use evenlight_points::Seed;
 
-use crate::sampler::{BLOCK, Entry, independent};
+use crate::sampler::{BLOCK, Entry, independent, unit_f32};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "halton",
@@ -38,27 +40,40 @@ fn fill(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
         return (independent::ENTRY.fill)(key, index, block, out);
     };
     for ((number, &prime), dimension) in out.iter_mut().zip(primes).zip(first as u64..) {
-        *number = scrambled_radical_inverse(prime, index, key.dimension(dimension));
+        *number = scrambled_radical_inverse(prime, index, key.split(TAG, dimension).bits64());
     }
 }
 
-fn scrambled_radical_inverse(prime: u32, index: u32, key: Seed) -> f32 {
+fn scrambled_radical_inverse(prime: u32, index: u32, key: u64) -> f32 {
+    let base = u64::from(prime);
     let scale = 1.0 / f64::from(prime);
-    let (mut rest, mut prefix, mut place) = (index, 0_u64, 1.0_f64);
-    let mut inverse = 0.0;
-    // digits below 2^-26 cannot be seen in 24 bits
-    while place > 1.0 / 67_108_864.0 {
-        let hash = key.split(TAG, prefix).bits64();
-        let digit = rest % prime;
+    let (mut rest, mut prefix, mut weight) = (index, 0_u64, 1_u64);
+    let (mut inverse, mut place) = (0.0, 1.0);
+    let (mut shifts, mut factor) = hash(key, prefix, base);
+    while rest != 0 {
+        let digit = u64::from(rest % prime);
         rest /= prime;
-        let factor = 1 + (((hash >> 32) * u64::from(prime - 1)) >> 32);
-        let shift = ((hash & 0xffff_ffff) * u64::from(prime)) >> 32;
+        let product = u128::from(shifts) * u128::from(base);
+        let shift = (product >> 64) as u64;
+        shifts = product as u64;
         place *= scale;
-        inverse += place * ((factor * u64::from(digit) + shift) % u64::from(prime)) as f64;
-        // leaves of the tree of prefixes are told apart by level and digits
-        prefix = (prefix + 1) * u64::from(prime) + u64::from(digit);
+        inverse += place * ((factor * digit + shift) % base) as f64;
+        if digit != 0 {
+            prefix += digit * weight;
+            (shifts, factor) = hash(key, prefix, base);
+        }
+        weight *= base;
     }
-    (inverse as f32).min(1.0 - f32::EPSILON / 2.0)
+    let tail = f64::from(unit_f32((shifts >> 32) as u32));
+    ((inverse + place * tail) as f32).min(1.0 - f32::EPSILON / 2.0)
+}
+
+/// The shifts of the nodes under a prefix and the factor, from 1 to p - 1, that all of them share.
+#[inline]
+fn hash(key: u64, prefix: u64, base: u64) -> (u64, u64) {
+    let shifts = independent::mix(key.wrapping_add(independent::GOLDEN.wrapping_mul(prefix)));
+    let low = shifts.wrapping_mul(independent::GOLDEN) >> 32;
+    (shifts, 1 + ((low * (base - 1)) >> 32))
 }
 
 const TAG: u64 = 17;

@@ -18,7 +18,8 @@ pub mod sobol;
 /// How many dimensions are computed at a time.
 pub const BLOCK: usize = 16;
 
-/// Dimensions of one path vertex.
+/// Dimensions of one path vertex. The first four are the pair that leaves the vertex and the pair that chooses the point on a light as seen
+/// from the next one: what is lit depends on both at once. Then come its other needs.
 const VERTEX: usize = 8;
 
 /// One sampler of the registry.
@@ -111,19 +112,15 @@ impl PathNumbers {
     #[inline]
     pub fn camera(&mut self) -> CameraNumbers {
         let n = self.vertex(0);
-        CameraNumbers { film: [n[0], n[1]], lens: [n[2], n[3]] }
+        CameraNumbers { film: [n[0], n[1]], lens: [n[4], n[5]] }
     }
 
     /// The numbers of a surface vertex; `depth` 0 is the first.
     #[inline]
     pub fn bounce(&mut self, depth: u32) -> BounceNumbers {
+        let n = self.vertex(depth);
+        let (light, light_choice) = ([n[2], n[3]], n[6]);
         let n = self.vertex(depth + 1);
-        BounceNumbers {
-            bsdf: [n[0], n[1]],
-            light: [n[2], n[3]],
-            light_choice: n[4],
-            lobe: n[5],
-            roulette: n[6],
-        }
+        BounceNumbers { bsdf: [n[0], n[1]], light, light_choice, lobe: n[4], roulette: n[5] }
     }
 }

@@ -1,30 +1,34 @@
-//! `sobol`: two-dimensional Sobol' points, padded: every pair of dimensions of every pixel has its own Owen scramble and its
+//! `sobol`: four-dimensional points in base 2, padded: every quadruple of dimensions of every pixel has its own Owen scramble and its
 //! own order. The default.
 //!
-//! Any 2^k consecutive sample indices that start at a multiple of 2^k are a (0, k, 2)-net in each pair. The order is a nested uniform
-//! shuffle (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)), so pairs are independent of each other. In two
-//! dimensions the Sobol' matrices are the identity and Pascal's triangle mod 2, whose product with a word takes five shifts (Ahmed 2024,
-//! "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact").
+//! The first and the last two numbers of a quadruple are pairs: any 2^k consecutive sample indices that start at a multiple of 2^k are a
+//! (0, k, 2)-net in base 2 in each of them, and any 4^k that start at a multiple of 4^k a (0, k, 4)-net in base 4 in all four
+//! together (Ahmed, Pharr, Ostromoukhov & Huang 2025, "SZ Sequences: Binary-Constructed (0, 2^q)-Sequences"). Sobol's own third
+//! and fourth dimensions are neither. Owen scrambling in base 2 keeps both properties. The order is a nested uniform shuffle (Burley 2020,
+//! "Practical Hash-based Owen Scrambling", JCGT 9(4)), so quadruples are independent of each other.
+
+mod matrices;
 
 use evenlight_points::Seed;
 use evenlight_points::scramble::owen::owen_hash_reversed_32;
 
 use crate::sampler::{BLOCK, Entry, unit_f32};
+use matrices::{DIMS, NIBBLES, WORDS};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "sobol",
-    cite: "Burley 2020, Practical Hash-based Owen Scrambling, JCGT 9(4); Sobol' 1967",
+    cite: "Burley 2020, Practical Hash-based Owen Scrambling, JCGT 9(4); Ahmed et al. 2025, SZ Sequences; Sobol' 1967",
     base: Some(2),
     fill,
 };
 
-const PAIRS: usize = BLOCK / 2;
+const GROUPS: usize = BLOCK / DIMS;
 
 fn fill(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the CPU was just found to have AVX2.
-        #[expect(unsafe_code, reason = "eight pairs at a time in AVX2 registers")]
+        #[expect(unsafe_code, reason = "eight dimensions at a time in AVX2 registers")]
         unsafe {
             fill_avx2(key, index, block, out);
         }
@@ -44,37 +48,45 @@ fn fill_avx2(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
 fn fill_lanes(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
     let bits = key.bits64();
     let (low, high) = (bits as u32, (bits >> 32) as u32);
-    let reversed_index = index.reverse_bits();
-    let mut x = [0; PAIRS];
-    let mut y = [0; PAIRS];
-    for pair in 0..PAIRS {
-        let number = block * PAIRS as u32 + pair as u32;
-        // three keys of the pair: for the order and for each coordinate
-        let order = mix(number.wrapping_mul(0x9e37_79b9).wrapping_add(low)) ^ high;
-        let order = mix(order);
-        let key_x = mix(order ^ 0x85eb_ca6b);
-        let key_y = mix(order ^ 0xc2b2_ae35);
-        // words hold the first digit in their lowest bit from here on
-        let shuffled = owen_hash_reversed_32(reversed_index, order).reverse_bits();
-        x[pair] = owen_hash_reversed_32(shuffled, key_x).reverse_bits();
-        y[pair] = owen_hash_reversed_32(pascal(shuffled), key_y).reverse_bits();
+    let mut words = [0; BLOCK];
+    let mut keys = [0; BLOCK];
+    for (group, (words, keys)) in
+        words.as_chunks_mut::<DIMS>().0.iter_mut().zip(keys.as_chunks_mut::<DIMS>().0).enumerate()
+    {
+        let number = block * GROUPS as u32 + group as u32;
+        let order = mix(mix(number.wrapping_mul(GOLDEN).wrapping_add(low)) ^ high);
+        *keys = std::array::from_fn(|dim| order.wrapping_add(GOLDEN.wrapping_mul(dim as u32 + 1)));
+        *words = point(shuffle(index, order));
     }
-    for pair in 0..PAIRS {
-        out[2 * pair] = unit_f32(x[pair]);
-        out[2 * pair + 1] = unit_f32(y[pair]);
+    for ((number, word), key) in out.iter_mut().zip(words).zip(keys) {
+        *number = unit_f32(owen_hash_reversed_32(word, mix(key)).reverse_bits());
     }
 }
 
-/// The second Sobol' coordinate of an index, first digit in the lowest bit: digit k is the parity of the index bits j with C(j, k) odd,
-/// that is (Lucas), with all binary digits of k among those of j.
+/// A nested uniform shuffle of all indices, up to an exclusive-or of the upper halves of all of them: that is a digital shift of the
+/// points, which their scramble swallows. It makes the upper halves of small indices vanish.
 #[inline(always)]
-fn pascal(mut word: u32) -> u32 {
-    word ^= (word >> 1) & 0x5555_5555;
-    word ^= (word >> 2) & 0x3333_3333;
-    word ^= (word >> 4) & 0x0f0f_0f0f;
-    word ^= (word >> 8) & 0x00ff_00ff;
-    word ^ (word >> 16)
+fn shuffle(index: u32, key: u32) -> u32 {
+    let shuffled = owen_hash_reversed_32(index.reverse_bits(), key).reverse_bits();
+    if index < 1 << 16 {
+        return shuffled & 0xffff;
+    }
+    shuffled ^ (owen_hash_reversed_32(0, key).reverse_bits() & 0xffff_0000)
 }
+
+/// The four coordinates of a point before scrambling, first digits in the lowest bits.
+#[inline(always)]
+fn point(index: u32) -> [u32; DIMS] {
+    let mut words = [0; DIMS];
+    let used = if index < 1 << 16 { NIBBLES / 2 } else { NIBBLES };
+    for (nibble, table) in WORDS[..used].iter().enumerate() {
+        let row = &table[(index >> (4 * nibble)) as usize & 15];
+        words = std::array::from_fn(|dim| words[dim] ^ row[dim]);
+    }
+    words
+}
+
+const GOLDEN: u32 = 0x9e37_79b9;
 
 /// A bijection of 32-bit words with low bias (C. Wellons 2018, "Prospecting for Hash Functions": lowbias32).
 #[inline(always)]
@@ -93,7 +105,7 @@ mod tests {
     #[test]
     fn vector_and_scalar_code_give_the_same_bits() {
         let key = Seed::new(3).pixel(5, 7);
-        for index in [0, 1, 77, u32::MAX] {
+        for index in [0, 1, 77, 65_535, 65_536, u32::MAX] {
             let (mut vector, mut scalar) = ([0.0; BLOCK], [0.0; BLOCK]);
             fill(key, index, 9, &mut vector);
             fill_lanes(key, index, 9, &mut scalar);
@@ -101,13 +113,18 @@ mod tests {
         }
     }
 
+    /// All of any aligned power of two of indices, once each.
     #[test]
-    fn pascal_matches_binomials() {
-        for k in 0..32_u32 {
-            for j in 0..32_u32 {
-                let odd = k & j == k; // C(j, k) is odd (Lucas)
-                assert_eq!(pascal(1 << j) >> k & 1 == 1, odd, "C({j}, {k})");
-            }
+    fn shuffles_keep_aligned_runs_together() {
+        for (start, length) in [(0, 64), (192, 64), (1 << 16, 1 << 10), ((1 << 17) - 512, 512_u32)] {
+            let mut run: Vec<_> = (start..start + length).map(|index| shuffle(index, 0x1234_5678)).collect();
+            run.sort_unstable();
+            assert!(run[0].is_multiple_of(length));
+            assert!(run.iter().zip(run[0]..).all(|(&a, b)| a == b));
         }
+        let mut all: Vec<_> = (0..1 << 17).map(|index| shuffle(index, 0x1234_5678)).collect();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), 1 << 17);
     }
 }
