@@ -104,16 +104,25 @@ def test_info_is_json(evenlight_command: Run, scenes: Path) -> None:
     assert isinstance(json.loads(done.stdout), dict)
 
 
+def heed_interrupts() -> None:
+    """Undo what a shell does to its background jobs, in which the tests may run: they ignore interrupts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals are POSIX")
 def test_an_interrupt_writes_what_there_is(tmp_path: Path, scenes: Path) -> None:
     command = [sys.executable, "-m", "evenlight", "render", str(scenes / "demo.xml")]
     # So many samples that a single pixel would take minutes.
     command += ["--spp", str(1 << 31), "--size", "64x48", "-o", "a.npz", "-o", "a.exr", "-o", "a.png"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
-    time.sleep(4)
-    assert process.poll() is None, process.stderr
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts)
+    try:
+        time.sleep(4)
+        assert process.poll() is None, process.stderr
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    finally:
+        process.kill()
+        process.wait()
     assert process.returncode == 130, errors
     (line,) = errors.splitlines()
     assert line.startswith("interrupted: partial image, 64x48")
