@@ -10,6 +10,7 @@ use std::sync::LazyLock;
 
 use evenlight_points::Seed;
 
+use crate::sampler::independent::{GOLDEN, mix};
 use crate::sampler::{BLOCK, Entry, independent, unit_f32};
 
 pub(crate) const ENTRY: Entry = Entry {
@@ -39,30 +40,30 @@ fn fill(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
     let Some(primes) = PRIMES.get(first..first + BLOCK) else {
         return (independent::ENTRY.fill)(key, index, block, out);
     };
+    let start = key.split(TAG, 0).bits64();
     for ((number, &prime), dimension) in out.iter_mut().zip(primes).zip(first as u64..) {
-        *number = scrambled_radical_inverse(prime, index, key.split(TAG, dimension).bits64());
+        *number = scrambled_radical_inverse(prime, index, mix(start ^ dimension));
     }
 }
 
 fn scrambled_radical_inverse(prime: u32, index: u32, key: u64) -> f32 {
-    let base = u64::from(prime);
     let scale = 1.0 / f64::from(prime);
     let (mut rest, mut prefix, mut weight) = (index, 0_u64, 1_u64);
     let (mut inverse, mut place) = (0.0, 1.0);
-    let (mut shifts, mut factor) = hash(key, prefix, base);
+    let (mut shifts, mut factor) = hash(key, prefix, prime);
     while rest != 0 {
-        let digit = u64::from(rest % prime);
+        let digit = rest % prime;
         rest /= prime;
-        let product = u128::from(shifts) * u128::from(base);
-        let shift = (product >> 64) as u64;
+        let product = u128::from(shifts) * u128::from(prime);
+        let shift = (product >> 64) as u32;
         shifts = product as u64;
         place *= scale;
-        inverse += place * ((factor * digit + shift) % base) as f64;
+        inverse += place * f64::from((factor * digit + shift) % prime);
         if digit != 0 {
-            prefix += digit * weight;
-            (shifts, factor) = hash(key, prefix, base);
+            prefix += u64::from(digit) * weight;
+            (shifts, factor) = hash(key, prefix, prime);
         }
-        weight *= base;
+        weight *= u64::from(prime);
     }
     let tail = f64::from(unit_f32((shifts >> 32) as u32));
     ((inverse + place * tail) as f32).min(1.0 - f32::EPSILON / 2.0)
@@ -70,10 +71,10 @@ fn scrambled_radical_inverse(prime: u32, index: u32, key: u64) -> f32 {
 
 /// The shifts of the nodes under a prefix and the factor, from 1 to p - 1, that all of them share.
 #[inline]
-fn hash(key: u64, prefix: u64, base: u64) -> (u64, u64) {
-    let shifts = independent::mix(key.wrapping_add(independent::GOLDEN.wrapping_mul(prefix)));
-    let low = shifts.wrapping_mul(independent::GOLDEN) >> 32;
-    (shifts, 1 + ((low * (base - 1)) >> 32))
+fn hash(key: u64, prefix: u64, prime: u32) -> (u64, u32) {
+    let shifts = mix(key.wrapping_add(GOLDEN.wrapping_mul(prefix)));
+    let other = shifts.wrapping_mul(GOLDEN) >> 32;
+    (shifts, 1 + ((other * u64::from(prime - 1)) >> 32) as u32)
 }
 
 const TAG: u64 = 17;

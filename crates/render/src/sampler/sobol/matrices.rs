@@ -8,26 +8,28 @@
 /// How many dimensions there are.
 pub(super) const DIMS: usize = 4;
 
-/// Groups of four index bits.
-pub(super) const NIBBLES: usize = 8;
+/// Groups of four bits in half an index.
+pub(super) const NIBBLES: usize = 4;
 
-/// `WORDS[n][v]`: the coordinates of the point with index `v << 4n`, first digit in the lowest bit.
-pub(super) static WORDS: [[[u32; DIMS]; 16]; NIBBLES] = words();
+/// `WORDS[h][n][v]`: the coordinates of the point whose only index bits are in group n of half h, first digit in the lowest bit. The index
+/// bits `v` come with the first, which is worth least, as the highest: what the hash of the shuffle leaves behind.
+pub(super) static WORDS: [[[[u32; DIMS]; 16]; NIBBLES]; 2] = words();
 
-const fn words() -> [[[u32; DIMS]; 16]; NIBBLES] {
-    let mut words = [[[0; DIMS]; 16]; NIBBLES];
+const fn words() -> [[[[u32; DIMS]; 16]; NIBBLES]; 2] {
+    let mut words = [[[[0; DIMS]; 16]; NIBBLES]; 2];
     let mut nibble = 0;
-    while nibble < NIBBLES {
-        let mut value = 0;
-        while value < 16 {
+    while nibble < 2 * NIBBLES {
+        let mut bits = 0;
+        while bits < 16 {
+            let value = (bits as u32).reverse_bits() >> 28;
             let mut dim = 0;
             while dim < DIMS {
                 let low = column(dim, 2 * nibble, value & 3);
                 let high = column(dim, 2 * nibble + 1, value >> 2);
-                words[nibble][value as usize][dim] = low ^ high;
+                words[nibble / NIBBLES][nibble % NIBBLES][bits][dim] = low ^ high;
                 dim += 1;
             }
-            value += 1;
+            bits += 1;
         }
         nibble += 1;
     }
@@ -68,7 +70,7 @@ mod tests {
 
     /// Rows of the matrix of a dimension over the index bits, first digit first.
     fn rows(dim: usize) -> Vec<u32> {
-        let column = |bit: usize| WORDS[bit / 4][1 << (bit % 4)][dim];
+        let column = |bit: usize| WORDS[bit / 16][bit / 4 % 4][8 >> (bit % 4)][dim];
         (0..32).map(|digit| (0..32).map(|bit| (column(bit) >> digit & 1) << bit).sum()).collect()
     }
 

@@ -12,6 +12,7 @@ mod matrices;
 use evenlight_points::Seed;
 use evenlight_points::scramble::owen::owen_hash_reversed_32;
 
+use crate::sampler::independent::{GOLDEN, mix};
 use crate::sampler::{BLOCK, Entry, unit_f32};
 use matrices::{DIMS, NIBBLES, WORDS};
 
@@ -46,51 +47,50 @@ fn fill_avx2(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
 
 #[inline(always)]
 fn fill_lanes(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
-    let bits = key.bits64();
-    let (low, high) = (bits as u32, (bits >> 32) as u32);
     let mut words = [0; BLOCK];
     let mut keys = [0; BLOCK];
-    for (group, (words, keys)) in
-        words.as_chunks_mut::<DIMS>().0.iter_mut().zip(keys.as_chunks_mut::<DIMS>().0).enumerate()
-    {
-        let number = block * GROUPS as u32 + group as u32;
-        let order = mix(mix(number.wrapping_mul(GOLDEN).wrapping_add(low)) ^ high);
-        *keys = std::array::from_fn(|dim| order.wrapping_add(GOLDEN.wrapping_mul(dim as u32 + 1)));
-        *words = point(shuffle(index, order));
+    let words_of = words.as_chunks_mut::<DIMS>().0.iter_mut();
+    let groups = words_of.zip(keys.as_chunks_mut::<DIMS>().0);
+    for ((words, keys), number) in groups.zip(block * GROUPS as u32..) {
+        let bits = mix(key.bits64().wrapping_add(u64::from(number + 1).wrapping_mul(GOLDEN)));
+        let (order, scramble) = ((bits >> 32) as u32, bits as u32);
+        *words = point(index, order);
+        *keys = std::array::from_fn(|dim| scramble.wrapping_add(KEYS[dim]));
     }
     for ((number, word), key) in out.iter_mut().zip(words).zip(keys) {
-        *number = unit_f32(owen_hash_reversed_32(word, mix(key)).reverse_bits());
+        *number = unit_f32(owen_hash_reversed_32(word, lowbias(key)).reverse_bits());
     }
 }
 
-/// A nested uniform shuffle of all indices, up to an exclusive-or of the upper halves of all of them: that is a digital shift of the
-/// points, which their scramble swallows. It makes the upper halves of small indices vanish.
+/// The four coordinates of a point before scrambling, first digits in the lowest bits, after a nested uniform shuffle of the index.
+///
+/// The upper halves of all indices are changed by the same exclusive-or. That is a digital shift of the points, which their scramble
+/// swallows; it makes the upper halves of small indices vanish.
 #[inline(always)]
-fn shuffle(index: u32, key: u32) -> u32 {
-    let shuffled = owen_hash_reversed_32(index.reverse_bits(), key).reverse_bits();
-    if index < 1 << 16 {
-        return shuffled & 0xffff;
-    }
-    shuffled ^ (owen_hash_reversed_32(0, key).reverse_bits() & 0xffff_0000)
-}
-
-/// The four coordinates of a point before scrambling, first digits in the lowest bits.
-#[inline(always)]
-fn point(index: u32) -> [u32; DIMS] {
-    let mut words = [0; DIMS];
-    let used = if index < 1 << 16 { NIBBLES / 2 } else { NIBBLES };
-    for (nibble, table) in WORDS[..used].iter().enumerate() {
-        let row = &table[(index >> (4 * nibble)) as usize & 15];
-        words = std::array::from_fn(|dim| words[dim] ^ row[dim]);
+fn point(index: u32, order: u32) -> [u32; DIMS] {
+    let shuffled = owen_hash_reversed_32(index.reverse_bits(), order);
+    let mut words = half_point(shuffled >> 16, &WORDS[0]);
+    if index >> 16 != 0 {
+        let upper = half_point((shuffled ^ owen_hash_reversed_32(0, order)) & 0xffff, &WORDS[1]);
+        words = std::array::from_fn(|dim| words[dim] ^ upper[dim]);
     }
     words
 }
 
-const GOLDEN: u32 = 0x9e37_79b9;
+/// What sixteen index bits contribute, the first of them being the highest.
+#[inline(always)]
+fn half_point(bits: u32, table: &[[[u32; DIMS]; 16]; NIBBLES]) -> [u32; DIMS] {
+    let nibble = |n: usize| &table[n][(bits >> (12 - 4 * n)) as usize & 15];
+    let (a, b, c, d) = (nibble(0), nibble(1), nibble(2), nibble(3));
+    std::array::from_fn(|dim| a[dim] ^ b[dim] ^ c[dim] ^ d[dim])
+}
+
+/// What tells the scrambles of the four dimensions apart: fractions of the golden ratio.
+const KEYS: [u32; DIMS] = [0x9e37_79b9, 0x3c6e_f372, 0xdaa6_6d2b, 0x78dd_e6e4];
 
 /// A bijection of 32-bit words with low bias (C. Wellons 2018, "Prospecting for Hash Functions": lowbias32).
 #[inline(always)]
-fn mix(mut x: u32) -> u32 {
+fn lowbias(mut x: u32) -> u32 {
     x ^= x >> 16;
     x = x.wrapping_mul(0x7feb_352d);
     x ^= x >> 15;
@@ -111,20 +111,5 @@ mod tests {
             fill_lanes(key, index, 9, &mut scalar);
             assert_eq!(vector, scalar);
         }
-    }
-
-    /// All of any aligned power of two of indices, once each.
-    #[test]
-    fn shuffles_keep_aligned_runs_together() {
-        for (start, length) in [(0, 64), (192, 64), (1 << 16, 1 << 10), ((1 << 17) - 512, 512_u32)] {
-            let mut run: Vec<_> = (start..start + length).map(|index| shuffle(index, 0x1234_5678)).collect();
-            run.sort_unstable();
-            assert!(run[0].is_multiple_of(length));
-            assert!(run.iter().zip(run[0]..).all(|(&a, b)| a == b));
-        }
-        let mut all: Vec<_> = (0..1 << 17).map(|index| shuffle(index, 0x1234_5678)).collect();
-        all.sort_unstable();
-        all.dedup();
-        assert_eq!(all.len(), 1 << 17);
     }
 }
