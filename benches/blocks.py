@@ -6,12 +6,13 @@ that their tail is worth counting: one bad mesh or one wrong normal shows as a c
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SIDE", "Comparison", "block_means", "compare"]
+__all__ = ["SIDE", "Comparison", "block_means", "compare", "pool"]
 
 SIDE = 8
 SIGMA = 4.0
@@ -38,6 +39,20 @@ class Comparison:
     difference: float
     difference_error: float
     deviations: Array
+
+
+def pool(comparisons: Sequence[Comparison]) -> Comparison:
+    """The mean of comparisons of independent renders with one reference: the same figures, less noisy.
+
+    The error of the difference is not lowered, because the reference's share of it is common to all.
+    """
+    squares = [found.difference_error**2 for found in comparisons]
+    return Comparison(
+        beyond=float(np.mean([found.beyond for found in comparisons])),
+        difference=float(np.mean([found.difference for found in comparisons])),
+        difference_error=float(np.sqrt(np.mean(squares))),
+        deviations=comparisons[0].deviations,
+    )
 
 
 def block_means(image: NDArray[np.floating], side: int = SIDE) -> Array:

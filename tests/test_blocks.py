@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from benches import validate
-from benches.blocks import block_means, compare
+from benches.blocks import block_means, compare, pool
 
 SHAPE = (108, 192, 3)
 
@@ -55,14 +56,24 @@ def test_a_wrong_object_is_found_and_nan_is_not_overlooked() -> None:
     assert not validate.Verdict("x", compare(replicates, reference, error), yardstick=1.0).passed
 
 
+def test_pooling_averages_but_keeps_the_reference_error() -> None:
+    first, second = compare(*images()), compare(*images(shift=0.02))
+    pooled = pool([first, second])
+    assert pooled.beyond == (first.beyond + second.beyond) / 2
+    assert pooled.difference == (first.difference + second.difference) / 2
+    assert min(first.difference_error, second.difference_error) <= pooled.difference_error
+
+
 def test_every_calibrated_scene_is_in_the_table() -> None:
     assert len(validate.yardsticks()) == 10
     assert validate.yardsticks()["cornell-box"] == 0.0017
 
 
 def test_the_report_tells_failures_and_absences() -> None:
-    verdicts = [validate.Verdict("a", compare(*images()), 0.01), validate.Verdict("b", message="no volumes")]
-    text = validate.to_markdown(verdicts, {"date": "today"}, 64, 8)
+    found = compare(*images())
+    verdicts = [validate.Verdict("a", found, found.beyond, 0.01), validate.Verdict("b", message="no volumes")]
+    options = argparse.Namespace(spp=64, replicates=8, seeds=4)
+    text = validate.to_markdown(verdicts, {"date": "today"}, options)
     assert "| a |" in text
     assert "passed" in text
     assert "not rendered: no volumes" in text
