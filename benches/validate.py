@@ -136,8 +136,9 @@ def to_markdown(verdicts: Sequence[Verdict], machine: dict[str, str], options: a
             lines.append(f"| {verdict.scene} | – | – | – | – | – | not rendered: {verdict.message} |")
             continue
         lines.append(
-            f"| {verdict.scene} | {found.beyond:.4f} | {verdict.worst:.4f} | {verdict.yardstick:.4f} | {found.difference:+.4f} ± "
-            f"{found.difference_error:.4f} | {verdict.seconds:.0f} | {'passed' if verdict.passed else '**failed**'} |"
+            f"| {verdict.scene} | {found.beyond:.4f} | {verdict.worst:.4f} | {verdict.yardstick:.4f} | "
+            f"{found.difference:+.4f} ± {found.difference_error:.4f} | {verdict.seconds:.0f} | "
+            f"{'passed' if verdict.passed else '**failed**'} |"
         )
     return "\n".join(lines) + "\n"
 
