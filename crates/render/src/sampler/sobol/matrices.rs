@@ -45,7 +45,7 @@ const fn column(dim: usize, j: usize, digit: u32) -> u32 {
         if i & j == i {
             // C(j, i) is odd (Lucas)
             let (x, y) = (element & 1, element >> 1);
-            let written = if dim % 2 == 0 { x | y << 1 } else { x ^ y | x << 1 };
+            let written = if dim.is_multiple_of(2) { x | y << 1 } else { x ^ y | x << 1 };
             word |= written << (2 * i);
         }
         if i == 0 {
