@@ -146,7 +146,7 @@ fn fills_boxes<const D: usize>(points: &[[f32; D]], base: u32, digits: [u32; D])
 
 #[test]
 fn pairs_of_sobol_are_nets_in_base_two() {
-    let sobol = sampler::by_name("sobol").unwrap();
+    let sobol = sampler::by_name("sobol").expect("a known name");
     for (key, pair) in pixels(3).zip([0, 5, 17]) {
         for (k, start) in (0..=9_u32).flat_map(|k| [0, 1 << k, 7 << k, 1 << 16].map(|start| (k, start))) {
             let points = run::<2>(sobol, key, start..start + (1 << k), 2 * pair);
@@ -159,7 +159,7 @@ fn pairs_of_sobol_are_nets_in_base_two() {
 
 #[test]
 fn quadruples_of_sobol_are_nets_in_base_four() {
-    let sobol = sampler::by_name("sobol").unwrap();
+    let sobol = sampler::by_name("sobol").expect("a known name");
     for (key, quadruple) in pixels(3).zip([0, 3, 6]) {
         for (k, start) in (0..=4_u32).flat_map(|k| [0, 3 << (2 * k), 1 << 16].map(|start| (k, start))) {
             let points = run::<4>(sobol, key, start..start + (1 << (2 * k)), 4 * quadruple);
@@ -174,7 +174,7 @@ fn quadruples_of_sobol_are_nets_in_base_four() {
 
 #[test]
 fn each_dimension_of_halton_is_stratified_by_its_prime() {
-    let halton = sampler::by_name("halton").unwrap();
+    let halton = sampler::by_name("halton").expect("a known name");
     for (dimension, prime) in [2_u32, 3, 5, 7, 11, 13, 17, 19].into_iter().enumerate() {
         for (k, key) in (0_u32..).zip(pixels(20)).take_while(|&(k, _)| prime.pow(k) < 3000) {
             let points = run::<1>(halton, key, 0..prime.pow(k), dimension);
