@@ -83,15 +83,20 @@ def _errors(record: Record) -> Iterator[str]:
         pairs = [f"{found[key]:.3e} ± {found[key + '_error']:.0e}" for key in ("ours", "theirs")]
         yield f"| {name} | {found['spp']} | {' | '.join(pairs)} | {_ratio(plain, found['ours'])} |"
     yield ""
-    coverage = errors["coverage"]
-    if "failed" in coverage:
-        yield f"Coverage not measured: {coverage['failed']}."
-        return
     yield (
-        "95 % intervals from 8 replicates (Student's t, allowing for the reference's own error) hold "
-        f"{coverage['ours']:.2%} of (pixel, channel) of our reference and {coverage['theirs']:.2%} of Mitsuba's "
-        f"(lowest and highest of four seeds: {coverage['theirs_lowest']:.2%}, {coverage['theirs_highest']:.2%})."
+        "How many of (pixel, channel) are held by 95 % intervals from 8 replicates (Student's t, allowing for the "
+        "reference's own error), over four seeds. The mean of few samples is skewed, because bright paths are rare: "
+        "its intervals are too short."
     )
+    yield ""
+    yield "| spp | our reference | Mitsuba's reference | lowest and highest seed |"
+    yield "|---|---|---|---|"
+    for spp, found in errors["coverage"].items():
+        if "failed" in found:
+            yield f"| {spp} | not measured: {found['failed']} | – | – |"
+            continue
+        extremes = f"{found['theirs_lowest']:.2%}, {found['theirs_highest']:.2%}"
+        yield f"| {spp} | {found['ours']:.2%} | {found['theirs']:.2%} | {extremes} |"
 
 
 def _points(record: Record) -> Iterator[str]:

@@ -27,6 +27,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 Record = dict[str, Any]
 
+COVERAGE_SPP = (64, 128, 256, 512)  # in 8 replicates: 8 to 64 samples each
 MAIN_SCENES = ("cornell-box", "living-room", "dining-room", "classroom")
 SCALAR = {"engine": "mitsuba", "variant": "scalar_rgb", "sampler": "independent"}
 LLVM = {"engine": "mitsuba", "variant": "llvm_ad_rgb", "sampler": "independent"}
@@ -119,9 +120,11 @@ def measure_errors(folder: Path, options: argparse.Namespace) -> Record:
             squares[name] = record if stack is None else errors.mean_squares(stack, ours, theirs)
             squares[name]["spp"] = record.get("spp")
             say(name, squares[name])
-        record, stack = images(replicated | {"replicates": 8, "seeds": [1, 2, 3, 4]})
-        coverage = record if stack is None else errors.coverage(stack, ours, theirs)
-        say("coverage", coverage)
+        coverage: Record = {}
+        for spp in COVERAGE_SPP:
+            record, stack = images(replicated | {"spp": spp, "replicates": 8, "seeds": [1, 2, 3, 4]})
+            coverage[str(spp)] = record if stack is None else errors.coverage(stack, ours, theirs)
+            say(f"coverage at {spp} spp", coverage[str(spp)])
     return {"scene": folder.name, "reference_spp": options.reference_spp, "squares": squares, "coverage": coverage}
 
 
