@@ -129,13 +129,7 @@ impl Assembly {
             });
         Ok(Scene {
             environments: environments.collect(),
-            world: World {
-                kernel,
-                triangles: self.triangles,
-                shapes: self.shapes,
-                analytic: self.analytic,
-                bounds,
-            },
+            world: World { kernel, triangles: self.triangles, shapes: self.shapes, analytic: self.analytic },
             emitters: self.emitters,
             selection,
             transport: parts.transport,

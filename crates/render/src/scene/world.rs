@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::accel::{RayKernel, TriangleHit};
 use crate::bsdf::Bsdf;
-use crate::emitter::{EmitterHit, SceneSphere};
+use crate::emitter::EmitterHit;
 use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3};
 use crate::scene::mesh::Mesh;
 use crate::shape::Analytic;
@@ -116,7 +116,6 @@ pub struct World {
     pub(crate) shapes: Vec<PlacedShape>,
     /// The analytic shapes, with their bounding boxes; few enough to try one after the other.
     pub(crate) analytic: Vec<(u32, [Vec3; 2])>,
-    pub(crate) bounds: SceneSphere,
 }
 
 /// A surface point where a path scatters.
@@ -213,11 +212,6 @@ impl World {
             direction: ray.direction,
         };
         Some((emitter, hit))
-    }
-
-    /// A sphere around everything.
-    pub fn bounds(&self) -> SceneSphere {
-        self.bounds
     }
 
     /// How many shapes there are.

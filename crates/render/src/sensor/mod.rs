@@ -30,9 +30,4 @@ pub trait Sensor: Send + Sync {
     /// The ray through `film`, in units of the full film with (0, 0) its top left and (1, 1) its bottom right corner.
     /// `lens` is a point of the unit square.
     fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray;
-
-    /// Whether the lens is more than a point.
-    fn has_lens(&self) -> bool {
-        false
-    }
 }

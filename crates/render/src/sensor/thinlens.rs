@@ -35,8 +35,4 @@ impl Sensor for ThinLens {
         let origin = Vec3::new(radius * cos_phi, radius * sin_phi, 0.0);
         self.projection.ray(origin, focus - origin)
     }
-
-    fn has_lens(&self) -> bool {
-        true
-    }
 }
