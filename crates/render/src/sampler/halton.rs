@@ -10,8 +10,7 @@ use std::sync::LazyLock;
 
 use evenlight_points::Seed;
 
-use crate::sampler::independent::{GOLDEN, mix};
-use crate::sampler::{BLOCK, Entry, independent, unit_f32};
+use crate::sampler::{BLOCK, Entry, GOLDEN, independent, mix, unit_f32};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "halton",

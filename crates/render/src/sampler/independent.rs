@@ -2,7 +2,7 @@
 
 use evenlight_points::Seed;
 
-use crate::sampler::{BLOCK, Entry, unit_f32};
+use crate::sampler::{BLOCK, Entry, GOLDEN, mix, unit_f32};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "independent",
@@ -20,13 +20,3 @@ fn fill(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]) {
 }
 
 const TAG: u64 = 16;
-
-/// Increment and finalizer of `SplitMix64` (Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators").
-pub(super) const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-
-#[inline]
-pub(super) fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}

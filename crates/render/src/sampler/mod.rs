@@ -45,6 +45,16 @@ pub fn by_name(name: &str) -> Result<&'static Entry> {
     })
 }
 
+/// Increment and finalizer of `SplitMix64` (Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators").
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+#[inline]
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
 /// 24 random bits as a number in [0, 1).
 #[inline(always)]
 pub(crate) fn unit_f32(word: u32) -> f32 {

@@ -12,8 +12,7 @@ mod matrices;
 use evenlight_points::Seed;
 use evenlight_points::scramble::owen::owen_hash_reversed_32;
 
-use crate::sampler::independent::{GOLDEN, mix};
-use crate::sampler::{BLOCK, Entry, unit_f32};
+use crate::sampler::{BLOCK, Entry, GOLDEN, mix, unit_f32};
 use matrices::{DIMS, NIBBLES, WORDS};
 
 pub(crate) const ENTRY: Entry = Entry {
