@@ -16,6 +16,7 @@
 //! * [`digital_net`]: the engine that all base-2 sequences share;
 //! * [`convert`]: digits to floating point without ever reaching 1.0.
 
+mod cells;
 pub mod convert;
 mod data;
 pub mod digital_net;
@@ -26,6 +27,7 @@ mod radical_inverse;
 pub mod scramble;
 mod seed;
 pub mod sequences;
+mod shuffle;
 
 pub use error::Error;
 pub use point_set::PointSet;

@@ -5,6 +5,7 @@
 
 pub mod halton;
 pub mod independent;
+pub mod latin_hypercube;
 pub mod sobol;
 
 use crate::scramble::Scrambling;
