@@ -22,12 +22,14 @@ mod data;
 pub mod digital_net;
 mod error;
 mod instruction_sets;
+mod multi_jitter;
 mod point_set;
 mod radical_inverse;
 pub mod scramble;
 mod seed;
 pub mod sequences;
 mod shuffle;
+mod tower_field;
 
 pub use error::Error;
 pub use point_set::PointSet;

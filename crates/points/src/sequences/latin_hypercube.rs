@@ -13,7 +13,7 @@ use crate::cells::Cells;
 use crate::convert::{Unit, unit_f64};
 use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
-use crate::seed::mix;
+use crate::seed::counted;
 use crate::shuffle::{self, Shuffle};
 use crate::{PointSet, Seed};
 
@@ -86,7 +86,7 @@ impl PointSet for LatinHypercube {
         assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
         let keys = [self.permutations[0][dim], self.permutations[1][dim]];
         let cell = self.shuffle.image(index, keys);
-        unit_f64(self.cells.place(cell as u32, within(index, self.places[0][dim], self.places[1][dim])))
+        unit_f64(self.cells.place(cell as u32, counted(index, self.places[0][dim], self.places[1][dim])))
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
@@ -98,12 +98,6 @@ impl PointSet for LatinHypercube {
     }
 }
 
-/// The place of a point within its slice.
-#[inline(always)]
-fn within(index: u64, first: u64, second: u64) -> u64 {
-    mix(mix(first.wrapping_add(index)) ^ second)
-}
-
 for_this_machine! {
     /// Slices to coordinates. `keys` are the index and the two keys of each place.
     place = place_body<T: Unit>(cells: Cells, keys: [&[u64]; 3], slices: &[u32], out: &mut [T])
@@ -112,6 +106,6 @@ for_this_machine! {
 #[inline(always)]
 fn place_body<T: Unit>(cells: Cells, [indices, first, second]: [&[u64]; 3], slices: &[u32], out: &mut [T]) {
     for ((((x, &slice), &index), &first), &second) in out.iter_mut().zip(slices).zip(indices).zip(first).zip(second) {
-        *x = T::from_word(cells.place(slice, within(index, first, second)));
+        *x = T::from_word(cells.place(slice, counted(index, first, second)));
     }
 }

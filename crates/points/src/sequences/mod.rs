@@ -6,7 +6,10 @@
 pub mod halton;
 pub mod independent;
 pub mod latin_hypercube;
+pub mod orthogonal_array;
 pub mod sobol;
+pub mod stratified;
+pub mod sz;
 
 use crate::scramble::Scrambling;
 use crate::{Error, PointSet, Seed};
