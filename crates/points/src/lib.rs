@@ -25,6 +25,8 @@ mod point_set;
 mod radical_inverse;
 pub mod scramble;
 mod seed;
+#[allow(unsafe_code)]
+mod streaming;
 pub mod sequences;
 
 pub use error::Error;

@@ -1,35 +1,38 @@
 //! The inner loops of [`DigitalNet`](super::DigitalNet).
 
-use crate::convert::Unit;
+use crate::convert::{Digits, Unit};
 use crate::instruction_sets::for_this_machine;
-use crate::scramble::owen::owen_hash_reversed_64;
 
 for_this_machine! {
     /// Points without a scramble or with a digital shift, which is part of the offset.
     ///
     /// `period` holds the offsets of some whole rows, and `tile` at least as many words as `out`.
-    shifted = shifted_body<T: Unit>(tile: &[u64], period: &[u64], out: &mut [T])
+    shifted = shifted_body<T: Unit>(tile: &[T::Digits], period: &[T::Digits], out: &mut [T])
 }
 
 for_this_machine! {
-    /// Owen-scrambled points. `tile` and `period` hold reversed words, `keys` go with `period`.
-    owen = owen_body<T: Unit>(tile: &[u64], period: &[u64], keys: &[u64], out: &mut [T])
+    /// Owen-scrambled points. `tile` and `period` hold reversed words, and `keys` what the hash adds and
+    /// multiplies with, for as many words as `period`.
+    owen = owen_body<T: Unit>(
+        tile: &[T::Digits], period: &[T::Digits], keys: [&[T::Digits]; 2], out: &mut [T])
 }
 
 #[inline(always)]
-fn shifted_body<T: Unit>(tile: &[u64], period: &[u64], out: &mut [T]) {
+fn shifted_body<T: Unit>(tile: &[T::Digits], period: &[T::Digits], out: &mut [T]) {
     for (tile, out) in tile.chunks(period.len()).zip(out.chunks_mut(period.len())) {
-        for ((x, word), offset) in out.iter_mut().zip(tile).zip(period) {
-            *x = T::from_word(word ^ offset);
+        for ((x, &word), &offset) in out.iter_mut().zip(tile).zip(period) {
+            *x = T::from_digits(word ^ offset);
         }
     }
 }
 
 #[inline(always)]
-fn owen_body<T: Unit>(tile: &[u64], period: &[u64], keys: &[u64], out: &mut [T]) {
+fn owen_body<T: Unit>(tile: &[T::Digits], period: &[T::Digits], keys: [&[T::Digits]; 2], out: &mut [T]) {
+    let [addends, multipliers] = keys;
     for (tile, out) in tile.chunks(period.len()).zip(out.chunks_mut(period.len())) {
-        for (((x, word), offset), &key) in out.iter_mut().zip(tile).zip(period).zip(keys) {
-            *x = T::from_word(owen_hash_reversed_64(word ^ offset, key).reverse_bits());
+        let keys = addends.iter().zip(multipliers);
+        for (((x, &word), &offset), (&addend, &multiplier)) in out.iter_mut().zip(tile).zip(period).zip(keys) {
+            *x = T::from_digits((word ^ offset).owen(addend, multiplier).reversed());
         }
     }
 }
