@@ -11,24 +11,15 @@ mod tables;
 
 use std::ops::Range;
 
+use self::tables::Tables;
 use crate::convert::{Unit, unit_f64};
 use crate::point_set::check_length;
 use crate::scramble::Scrambling;
-use crate::streaming::Writer;
-use self::tables::Tables;
+use crate::streaming::{self, LANES, Stream};
 use crate::{PointSet, Seed};
 
 /// The digits of a coordinate, and of an index.
 pub const BITS: usize = 64;
-
-/// Words of a tile: at most half of a first-level cache.
-const TILE_WORDS: usize = 2048;
-
-/// Rows of a tile at least, which bounds the cost of moving on to the next block.
-const TILE_ROWS: usize = 8;
-
-/// Words over which offsets and keys repeat at least, so that vector loops are long even if d is 1.
-const PERIOD_WORDS: usize = 256;
 
 /// A base-2 digital net, scrambled.
 #[derive(Debug)]
@@ -93,20 +84,21 @@ impl DigitalNet {
         if out.is_empty() {
             return;
         }
-        let tables: Tables<T::Digits> = Tables::new(self, &rows);
-        let mut period = tables.period(rows.start >> tables.tile_bits);
-        // The first block may begin in the middle of the tile.
-        let mut block = rows.start >> tables.tile_bits;
-        let skipped = (rows.start - (block << tables.tile_bits)) as usize;
-        let mut tile = &tables.tile[skipped * self.dims..];
-        let mut out = Writer::new(out);
-        loop {
-            out.write(tile.len().min(out.places_left()), |part| tables.scramble(tile, &period, part));
-            if out.places_left() == 0 {
-                return;
-            }
-            tables.advance(&mut period, block);
-            (block, tile) = (block.wrapping_add(1), &tables.tile);
+        let tables = Tables::<T::Digits>::new(self, &rows);
+        let owen = self.scramble == Scrambling::Owen;
+        if streaming::pays(out) {
+            let kernel = if owen { kernels::owen_past } else { kernels::shifted_past };
+            let mut out = Stream::new(out);
+            tables.for_each_block(rows, |tile, period| kernel(tile, period, &mut out));
+        } else {
+            let kernel = if owen { kernels::owen } else { kernels::shifted };
+            let mut rest = out;
+            tables.for_each_block(rows, |tile, period| {
+                let words = (tile.len() - LANES).min(rest.len());
+                let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
+                kernel(tile, period, part);
+                rest = later;
+            });
         }
     }
 }

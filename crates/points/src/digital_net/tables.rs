@@ -1,94 +1,113 @@
-//! What [`DigitalNet`] tabulates before it fills an array, in the words of its precision.
+//! What a [`DigitalNet`] tabulates before it fills an array, in the words of the array's precision.
 
 use std::ops::Range;
 
-use super::{DigitalNet, PERIOD_WORDS, TILE_ROWS, TILE_WORDS, kernels};
-use crate::convert::{Digits, Unit};
+use super::DigitalNet;
+use super::kernels::Period;
+use crate::convert::Digits;
 use crate::scramble::Scrambling;
+use crate::streaming::LANES;
+
+/// Words of a tile: at most half of a first-level cache.
+const TILE_WORDS: usize = 2048;
+
+/// Rows of a tile at least, which bounds the cost of moving on to the next block.
+const TILE_ROWS: usize = 8;
+
+/// Words over which offsets and keys repeat at least, so that vector loops are long even if d is 1.
+const PERIOD_WORDS: usize = 256;
 
 /// Tables for one range of rows. All words have the form that the kernel wants.
 pub(super) struct Tables<'a, D> {
     net: &'a DigitalNet,
-    /// The words of the first rows, before any shift.
-    pub(super) tile: Vec<D>,
+    /// The words of the first rows, before any shift, and [`LANES`] more.
+    tile: Vec<D>,
     /// The binary logarithm of the number of rows of the tile.
-    pub(super) tile_bits: u32,
-    /// What the words of a block change by when the next block follows a block that ends in k ones.
-    steps: Vec<D>,
-    /// What the Owen hash adds and multiplies with, for the rows of a period.
+    tile_bits: u32,
+    /// The number of words of a period: whole rows.
+    period: usize,
+    /// What the offsets change by when a block is left whose number ends in 0, 1, 2, … ones.
+    steps: Vec<Vec<D>>,
+    /// What the Owen hash adds and multiplies with.
     keys: [Vec<D>; 2],
-    /// The number of rows of a period.
-    period_rows: usize,
 }
 
 impl<'a, D: Digits> Tables<'a, D> {
+    /// Tables for these rows, of which there must be some.
     pub(super) fn new(net: &'a DigitalNet, rows: &Range<u64>) -> Self {
-        let count = rows.end - rows.start;
-        let tile_bits = ((TILE_WORDS / net.dims).max(TILE_ROWS) as u64).min(count).ilog2();
-        let period_rows = PERIOD_WORDS.div_ceil(net.dims).next_power_of_two().min(1 << tile_bits);
-        let blocks = (rows.start >> tile_bits)..=((rows.end - 1) >> tile_bits);
-        let mut tables = Self { net, tile: vec![], tile_bits, steps: vec![], keys: [vec![], vec![]], period_rows };
+        let tile_bits = ((TILE_WORDS / net.dims).max(TILE_ROWS) as u64).min(rows.end - rows.start).ilog2();
+        let changing = (rows.start >> tile_bits) ^ ((rows.end - 1) >> tile_bits);
+        let words = (net.dims << tile_bits).clamp(LANES, PERIOD_WORDS);
+        let period = net.dims * words.div_ceil(net.dims).next_power_of_two();
+        let mut tables = Self { net, tile: vec![], tile_bits, period, steps: vec![], keys: [vec![], vec![]] };
         tables.tile = tables.first_rows();
-        tables.steps = tables.steps_within(blocks.start() ^ blocks.end());
+        tables.steps = tables.steps_within(changing);
         if net.scramble == Scrambling::Owen {
-            let (addends, multipliers): (Vec<D>, Vec<D>) = net.keys.iter().map(|key| D::owen_key(key.bits64())).unzip();
-            tables.keys = [addends.repeat(period_rows), multipliers.repeat(period_rows)];
+            let (addends, factors): (Vec<D>, Vec<D>) =
+                net.keys.iter().map(|key| D::owen_key(key.bits64())).unzip();
+            tables.keys = [tables.repeated(&addends), tables.repeated(&factors)];
         }
         tables
     }
 
+    /// Calls `make` for every block that holds some of the rows: with the words of the block from the first row
+    /// on, followed by [`LANES`] more, and with what belongs to them.
+    pub(super) fn for_each_block(&self, rows: Range<u64>, mut make: impl FnMut(&[D], Period<'_, D>)) {
+        let mut block = rows.start >> self.tile_bits;
+        let last = (rows.end - 1) >> self.tile_bits;
+        let mut offsets = self.repeated(&self.kernel_row(&self.net.row(block << self.tile_bits)));
+        let keys = self.keys.each_ref().map(Vec::as_slice);
+        let skipped = (rows.start - (block << self.tile_bits)) as usize;
+        let mut tile = &self.tile[skipped * self.net.dims..];
+        loop {
+            make(tile, Period { words: self.period, offsets: &offsets, keys });
+            if block == last {
+                return;
+            }
+            let step = &self.steps[block.trailing_ones() as usize];
+            offsets.iter_mut().zip(step).for_each(|(word, &step)| *word ^= step);
+            (block, tile) = (block + 1, &self.tile);
+        }
+    }
+
     /// The Owen hash works on reversed words; reversing the tables saves doing it for each point.
-    fn kernel_form(&self, word: u64) -> D {
-        let digits = D::leading(word);
-        if self.net.scramble == Scrambling::Owen { digits.reversed() } else { digits }
+    fn kernel_row(&self, row: &[u64]) -> Vec<D> {
+        let owen = self.net.scramble == Scrambling::Owen;
+        let form = |&word: &u64| if owen { D::leading(word).reversed() } else { D::leading(word) };
+        row.iter().map(form).collect()
+    }
+
+    /// A row over and over, for a period and [`LANES`] more words.
+    fn repeated(&self, row: &[D]) -> Vec<D> {
+        let mut words = row.repeat(self.period / row.len());
+        words.extend_from_within(..LANES);
+        words
     }
 
     /// Every bit of the index doubles the rows: the later half is the earlier half plus a column.
     fn first_rows(&self) -> Vec<D> {
-        let mut tile = Vec::with_capacity(self.net.dims << self.tile_bits);
-        tile.resize(self.net.dims, D::default());
+        let dims = self.net.dims;
+        let mut tile = Vec::with_capacity((dims << self.tile_bits) + LANES);
+        tile.resize(dims, D::default());
         for k in 0..self.tile_bits {
-            let column: Vec<D> = self.net.column(k).iter().map(|&word| self.kernel_form(word)).collect();
+            let column = self.kernel_row(self.net.column(k));
             let half = tile.len();
             tile.extend_from_within(..);
-            for row in tile[half..].chunks_exact_mut(column.len()) {
+            for row in tile[half..].chunks_exact_mut(dims) {
                 row.iter_mut().zip(&column).for_each(|(word, &column)| *word ^= column);
             }
         }
+        tile.resize(tile.len() + LANES, D::default());
         tile
     }
 
-    /// The steps between blocks that differ in no other bits than these.
-    fn steps_within(&self, changing: u64) -> Vec<D> {
+    /// The steps between blocks whose numbers differ in no other bits than these.
+    fn steps_within(&self, changing: u64) -> Vec<Vec<D>> {
         let mut sum = vec![0; self.net.dims];
-        let mut steps = Vec::new();
-        for k in 0..u64::BITS - changing.leading_zeros() {
+        let mut step = |k| {
             sum.iter_mut().zip(self.net.column(self.tile_bits + k)).for_each(|(sum, column)| *sum ^= column);
-            steps.extend(sum.iter().map(|&word| self.kernel_form(word)));
-        }
-        steps
-    }
-
-    /// The offsets of a block, for the rows of a period.
-    pub(super) fn period(&self, block: u64) -> Vec<D> {
-        let row: Vec<D> = self.net.row(block << self.tile_bits).iter().map(|&word| self.kernel_form(word)).collect();
-        row.repeat(self.period_rows)
-    }
-
-    /// Moves the offsets of `block` on to the next block.
-    pub(super) fn advance(&self, period: &mut [D], block: u64) {
-        let step = &self.steps[block.trailing_ones() as usize * self.net.dims..][..self.net.dims];
-        for row in period.chunks_exact_mut(step.len()) {
-            row.iter_mut().zip(step).for_each(|(word, &step)| *word ^= step);
-        }
-    }
-
-    /// Scrambles and converts words of the tile, moved by the offsets of a block.
-    pub(super) fn scramble<T: Unit<Digits = D>>(&self, tile: &[D], period: &[D], out: &mut [T]) {
-        if self.net.scramble == Scrambling::Owen {
-            kernels::owen(tile, period, self.keys.each_ref().map(Vec::as_slice), out);
-        } else {
-            kernels::shifted(tile, period, out);
-        }
+            self.repeated(&self.kernel_row(&sum))
+        };
+        (0..u64::BITS - changing.leading_zeros()).map(&mut step).collect()
     }
 }
