@@ -84,19 +84,19 @@ def _errors(record: Record) -> Iterator[str]:
         yield f"| {name} | {found['spp']} | {' | '.join(pairs)} | {_ratio(plain, found['ours'])} |"
     yield ""
     yield (
-        "How many of (pixel, channel) are held by 95 % intervals from 8 replicates (Student's t, allowing for the "
-        "reference's own error), over four seeds. The mean of few samples is skewed, because bright paths are rare: "
-        "its intervals are too short."
+        "How many of (pixel, channel) are held by 95 % intervals from 8 replicates (`Film.confidence_interval`, allowing "
+        "for the reference's own error), over four seeds. The mean of few samples is skewed, because bright paths are "
+        "rare: Student's t alone makes intervals that are too short."
     )
     yield ""
-    yield "| spp | our reference | Mitsuba's reference | lowest and highest seed |"
-    yield "|---|---|---|---|"
+    yield "| spp | our reference | Mitsuba's reference | lowest and highest seed | Student's t, our reference |"
+    yield "|---|---|---|---|---|"
     for spp, found in errors["coverage"].items():
         if "failed" in found:
-            yield f"| {spp} | not measured: {found['failed']} | – | – |"
+            yield f"| {spp} | not measured: {found['failed']} | – | – | – |"
             continue
         extremes = f"{found['theirs_lowest']:.2%}, {found['theirs_highest']:.2%}"
-        yield f"| {spp} | {found['ours']:.2%} | {found['theirs']:.2%} | {extremes} |"
+        yield f"| {spp} | {found['ours']:.2%} | {found['theirs']:.2%} | {extremes} | {found['ours_plain']:.2%} |"
 
 
 def _points(record: Record) -> Iterator[str]:

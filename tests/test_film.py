@@ -7,16 +7,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import OpenEXR
 import pytest
+from scipy import stats
 
 from evenlight.film import Film, check_output
 
 
-def make_film(replicates: int = 4, **changes: Any) -> Film:
+def make_film(replicates: int | npt.NDArray[np.float32] = 4, **changes: Any) -> Film:
     generator = np.random.default_rng(5)
+    if isinstance(replicates, int):
+        replicates = generator.random((replicates, 6, 7, 3), dtype=np.float32)
     layers: dict[str, Any] = {
-        "replicates": generator.random((replicates, 6, 7, 3), dtype=np.float32),
+        "replicates": replicates,
         "albedo": generator.random((6, 7, 3), dtype=np.float32),
         "normal": generator.random((6, 7, 3), dtype=np.float32) - np.float32(0.5),
         "depth": generator.random((6, 7), dtype=np.float32),
@@ -37,6 +41,51 @@ def test_one_replicate_has_no_standard_error() -> None:
     np.testing.assert_array_equal(film.color, film.replicates[0])
     assert np.isnan(film.standard_error).all()
     assert np.isnan(film.relative_error)
+
+
+@pytest.mark.parametrize("level", [0.5, 0.95, 0.999])
+def test_intervals_solve_the_equation_they_are_defined_by(level: float) -> None:
+    film = make_film(replicates=8)
+    values = film.replicates.astype(np.float64)
+    skewness = stats.skew(values, axis=0) / np.sqrt(8)
+    quantile = stats.t.ppf(0.5 + level / 2, df=7)
+    for end, wanted in zip(film.confidence_interval(level), (quantile, -quantile), strict=True):
+        t = (values.mean(axis=0) - end) / (values.std(axis=0, ddof=1) / np.sqrt(8))
+        found = t + skewness * (t**2 / 3 + 1 / 6) + skewness**2 * t**3 / 27
+        np.testing.assert_allclose(found, wanted, rtol=1e-4)
+
+
+def test_intervals_of_replicates_that_are_not_skewed_are_those_of_student() -> None:
+    half = make_film(replicates=4).replicates
+    film = make_film(replicates=np.concatenate([half, 1 - half]))
+    low, high = film.confidence_interval(0.9)
+    student = stats.t.ppf(0.95, df=7) * film.standard_error
+    np.testing.assert_allclose(high - film.color, student, rtol=1e-3)
+    np.testing.assert_allclose(film.color - low, student, rtol=1e-3)
+
+
+def test_intervals_of_skewed_replicates_cover_better_than_student() -> None:
+    """Means of 8 squares of normal numbers: 6,000 intervals, whose rate has a standard error of 0.3 %."""
+    generator = np.random.default_rng(11)
+    replicates = (generator.standard_normal((8, 40, 50, 3, 8)) ** 2).mean(axis=-1).astype(np.float32)
+    film = make_film(replicates=replicates)
+    low, high = film.confidence_interval(0.95)
+    covered = np.mean((low <= 1) & (high >= 1))
+    plain = np.mean(np.abs(film.color - 1) <= stats.t.ppf(0.975, df=7) * film.standard_error)
+    assert plain < covered
+    assert 0.93 < covered < 0.97
+
+
+def test_intervals_need_two_replicates_and_a_level() -> None:
+    assert np.isnan(make_film(replicates=1).confidence_interval()).all()
+    replicates = make_film().replicates.copy()
+    replicates[1:, 0, 0] = np.nan
+    low, high = make_film(replicates=replicates, partial=True).confidence_interval()
+    assert np.isnan([low[0, 0], high[0, 0]]).all()
+    assert np.isfinite(low[1]).all()
+    for level in (0.0, 1.0, 95.0, float("nan")):
+        with pytest.raises(ValueError, match="level must be between 0 and 1"):
+            make_film().confidence_interval(level)
 
 
 def test_only_a_partial_film_passes_over_missing_replicates() -> None:
