@@ -64,7 +64,11 @@ mod tests {
                     let x = unit_f64(cells.place(cell as u32, within));
                     let digits = (x * 2f64.powi(53)) as u64;
                     let exact = (u128::from(digits) * u128::from(n)) >> 53;
-                    assert_eq!((exact as u64, (x * n as f64) as u64), (cell, cell), "{within} of {cell} of {n}");
+                    assert_eq!(
+                        (exact as u64, (x * n as f64) as u64),
+                        (cell, cell),
+                        "{within} of {cell} of {n}"
+                    );
                 }
             }
         }

@@ -65,7 +65,8 @@ impl MultiJitter {
     fn coordinate(&self, index: u64, cell: [u64; 2], pair: &Pair, half: usize) -> f64 {
         let (major, minor, slices) =
             if half == 0 { (cell[0], cell[1], self.rows) } else { (cell[1], cell[0], self.columns) };
-        let word = if self.correlated { pair.slices[half] } else { mix(pair.slices[half].wrapping_add(major)) };
+        let word =
+            if self.correlated { pair.slices[half] } else { mix(pair.slices[half].wrapping_add(major)) };
         let slice = self.shuffles[1 + half].image(minor, shuffle::keys(word));
         let [first, second] = pair.places[half];
         unit_f64(self.cells.place((major * slices + slice) as u32, counted(index, first, second)))

@@ -179,7 +179,8 @@ mod tests {
             let numbers: Vec<_> = (0..n).step_by((n as usize / 400).max(1)).collect();
             let (mut left, mut right): (Vec<_>, Vec<_>) =
                 numbers.iter().map(|&i| shuffle.digits(i)).map(|[left, right]| (left, right)).unzip();
-            let (first, step): (Vec<_>, Vec<_>) = numbers.iter().map(|&i| word(i)).map(|[a, b]| (a, b)).unzip();
+            let (first, step): (Vec<_>, Vec<_>) =
+                numbers.iter().map(|&i| word(i)).map(|[a, b]| (a, b)).unzip();
             shuffle.images(&mut left, &mut right, [&first, &step]);
             for (&number, &image) in numbers.iter().zip(&left) {
                 assert_eq!(u64::from(image), shuffle.image(number, word(number)), "{number} of {n}");
@@ -212,7 +213,8 @@ mod tests {
                 }
                 let same: f64 = counts.iter().step_by(n as usize + 1).sum();
                 assert_eq!(same, 0.0);
-                let counts: Vec<_> = (0..counts.len()).filter(|i| i % (n as usize + 1) != 0).map(|i| counts[i]).collect();
+                let counts: Vec<_> =
+                    (0..counts.len()).filter(|i| i % (n as usize + 1) != 0).map(|i| counts[i]).collect();
                 assert!(excess(&counts) < 10.0, "{a} and {b} of {n}: {}", excess(&counts));
             }
         }

@@ -10,7 +10,15 @@ pub(crate) const BITS: u32 = 16;
 /// The product of two elements of the field of 2^`bits`.
 pub(crate) const fn product(a: u32, b: u32, bits: u32) -> u32 {
     if bits == 1 || a < 2 || b < 2 {
-        return if a == 0 || b == 0 { 0 } else if a == 1 { b } else if b == 1 { a } else { 1 };
+        return if a == 0 || b == 0 {
+            0
+        } else if a == 1 {
+            b
+        } else if b == 1 {
+            a
+        } else {
+            1
+        };
     }
     let half = bits / 2;
     let mask = (1 << half) - 1;
@@ -50,7 +58,10 @@ mod tests {
 
     #[test]
     fn smaller_fields_are_inside_larger_ones() {
-        assert_eq!([product(2, 2, BITS), product(2, 3, BITS), product(4, 4, BITS), product(16, 16, BITS)], [3, 1, 6, 24]);
+        assert_eq!(
+            [product(2, 2, BITS), product(2, 3, BITS), product(4, 4, BITS), product(16, 16, BITS)],
+            [3, 1, 6, 24]
+        );
         for (a, b) in (0..16).flat_map(|a| (0..16).map(move |b| (a, b))) {
             assert_eq!(product(a, b, 4), product(a, b, BITS));
         }

@@ -105,7 +105,9 @@ for_this_machine! {
 
 #[inline(always)]
 fn place_body<T: Unit>(cells: Cells, [indices, first, second]: [&[u64]; 3], slices: &[u32], out: &mut [T]) {
-    for ((((x, &slice), &index), &first), &second) in out.iter_mut().zip(slices).zip(indices).zip(first).zip(second) {
+    for ((((x, &slice), &index), &first), &second) in
+        out.iter_mut().zip(slices).zip(indices).zip(first).zip(second)
+    {
         *x = T::from_word(cells.place(slice, counted(index, first, second)));
     }
 }

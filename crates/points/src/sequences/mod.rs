@@ -3,10 +3,19 @@
 //! To add one, write its file with an `ENTRY`, declare it here and put it in [`ALL`]. The laws, the
 //! golden values, the Python names and the error messages follow from the list.
 
+pub mod correlated_multi_jittered;
+pub mod dyadic;
 pub mod halton;
 pub mod independent;
 pub mod latin_hypercube;
+#[cfg(feature = "generators")]
+pub mod mersenne_twister;
+pub mod multi_jittered;
 pub mod orthogonal_array;
+#[cfg(feature = "generators")]
+pub mod pcg;
+pub mod philox;
+pub mod progressive_multi_jittered;
 pub mod sobol;
 pub mod stratified;
 pub mod sz;

@@ -32,7 +32,7 @@ pub fn sz(dims: usize, scramble: Scrambling, seed: Seed) -> DigitalNet {
 fn matrix(dim: u32) -> [u64; BITS] {
     assert!(dim < 1 << tower_field::BITS, "dimension {dim} of 65536");
     // The smallest field that has the dimension: larger ones give the same matrix.
-    let bits = (0..).map(|k| 1 << k).find(|&bits| u64::from(dim) >> bits == 0).unwrap_or(1);
+    let bits = (u32::BITS - dim.leading_zeros()).max(1).next_power_of_two();
     let element = element(dim, bits);
     std::array::from_fn(|column| {
         let (j, bit) = (column as u32 / bits, column as u32 % bits);
@@ -87,7 +87,9 @@ mod tests {
     fn rank(rows: impl Iterator<Item = u64>) -> u32 {
         let mut basis: Vec<u64> = Vec::new();
         for mut row in rows {
-            basis.iter().for_each(|&pivot| row = row.min(row ^ pivot));
+            for &pivot in &basis {
+                row = row.min(row ^ pivot);
+            }
             if row != 0 {
                 basis.push(row);
             }
@@ -100,7 +102,8 @@ mod tests {
         if parts == 1 {
             return vec![vec![sum]];
         }
-        let rest = |first| shares(sum - first, parts - 1).into_iter().map(move |rest| [vec![first], rest].concat());
+        let rest =
+            |first| shares(sum - first, parts - 1).into_iter().map(move |rest| [vec![first], rest].concat());
         (0..=sum).flat_map(rest).collect()
     }
 
