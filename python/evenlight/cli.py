@@ -84,6 +84,8 @@ def _info(options: argparse.Namespace) -> int:
 
 
 def _points(options: argparse.Namespace) -> int:
+    if options.dims < 1:
+        raise ValueError(f"--dims must be at least 1, not {options.dims}")
     settings = dict(options.option)
     if points.SEQUENCES[options.sequence].finite:
         settings.setdefault("n", options.start + options.count)
