@@ -21,12 +21,15 @@ mod data;
 pub mod digital_net;
 mod error;
 mod instruction_sets;
+mod parallel;
 mod point_set;
 mod radical_inverse;
 pub mod scramble;
 mod seed;
 pub mod sequences;
+mod streaming;
 
 pub use error::Error;
+pub use parallel::{fill_parallel, fill_parallel_f32};
 pub use point_set::PointSet;
 pub use seed::Seed;

@@ -7,26 +7,20 @@
 //! coordinates can be scrambled and converted at a time, whatever the dimension.
 
 mod kernels;
+mod tables;
 
 use std::ops::Range;
 use std::sync::Arc;
 
+use self::tables::Tables;
 use crate::convert::{Unit, unit_f64};
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
+use crate::streaming::{self, LANES, Stream};
 use crate::{PointSet, Seed};
 
 /// The digits of a coordinate, and of an index.
 pub const BITS: usize = 64;
-
-/// Words of a tile: 16 KiB, half of a first-level cache.
-const TILE_WORDS: usize = 2048;
-
-/// Rows of a tile at least, which bounds the cost of moving on to the next block.
-const TILE_ROWS: usize = 4;
-
-/// Words over which offsets and keys repeat at least, so that vector loops are long even if d is 1.
-const PERIOD_WORDS: usize = 256;
 
 /// A base-2 digital net, randomized.
 #[derive(Debug)]
@@ -41,12 +35,6 @@ pub struct DigitalNet {
     origin: Vec<u64>,
     /// One key for each coordinate.
     keys: Vec<Seed>,
-    /// The words of the first rows, in the form that the kernel wants.
-    tile: Vec<u64>,
-    /// The binary logarithm of the number of rows of the tile.
-    tile_bits: u32,
-    /// The keys of as many rows as make up a period.
-    period_keys: Vec<u64>,
 }
 
 impl DigitalNet {
@@ -67,80 +55,92 @@ impl DigitalNet {
         } else {
             (plain.clone(), vec![0; dims])
         };
-        let period_rows = PERIOD_WORDS.div_ceil(dims).next_power_of_two();
-        let period_keys = keys.iter().map(|key| key.bits64()).collect::<Vec<_>>().repeat(period_rows);
-        let tile_bits = (TILE_WORDS / dims).max(TILE_ROWS).ilog2();
-        let tile = Vec::new();
-        let mut net =
-            Self { dims, randomization, plain, columns, origin, keys, tile, tile_bits, period_keys };
-        net.tile = net.first_rows(1 << tile_bits);
-        net
+        Self { dims, randomization, plain, columns, origin, keys }
     }
 
     /// The digits of a coordinate before randomization.
     ///
     /// # Panics
     /// If there is no such coordinate.
-    pub fn word(&self, index: u64, dim: usize) -> u64 {
-        self.product(&self.plain, index, dim)
-    }
-
-    fn product(&self, columns: &[u64], mut index: u64, dim: usize) -> u64 {
+    pub fn word(&self, mut index: u64, dim: usize) -> u64 {
         assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
         let mut word = 0;
         while index != 0 {
-            word ^= columns[index.trailing_zeros() as usize * self.dims + dim];
+            word ^= self.plain[index.trailing_zeros() as usize * self.dims + dim];
             index &= index - 1;
         }
         word
     }
 
-    fn first_rows(&self, rows: u64) -> Vec<u64> {
-        let words = (0..rows).flat_map(|index| (0..self.dims).map(move |dim| (index, dim)));
-        words.map(|(index, dim)| self.kernel_form(self.product(&self.columns, index, dim))).collect()
-    }
-
-    /// The Owen hash works on reversed words; reversing the tables saves doing it for each point.
-    fn kernel_form(&self, word: u64) -> u64 {
-        if self.randomization == Randomization::Owen { word.reverse_bits() } else { word }
-    }
-
-    /// Moves a row of words to another index, given the bits in which the two indices differ.
-    fn toggle(&self, row: &mut [u64], mut changed: u64) {
-        while changed != 0 {
-            let column = &self.columns[changed.trailing_zeros() as usize * self.dims..][..self.dims];
+    /// The words of a row, with no other than an affine randomization.
+    fn row(&self, mut index: u64) -> Vec<u64> {
+        let mut row = self.origin.clone();
+        while index != 0 {
+            let column = self.column(index.trailing_zeros());
             row.iter_mut().zip(column).for_each(|(word, column)| *word ^= column);
-            changed &= changed - 1;
+            index &= index - 1;
         }
+        row
+    }
+
+    /// Column k of all matrices.
+    fn column(&self, k: u32) -> &[u64] {
+        &self.columns[k as usize * self.dims..][..self.dims]
     }
 
     /// [`PointSet::fill`] in either precision.
     fn fill_units<T: Unit>(&self, rows: Range<u64>, out: &mut [T]) {
         check_length(&rows, self.dims, out.len());
-        let mut block = rows.start >> self.tile_bits;
-        let mut offset = self.origin.clone();
-        self.toggle(&mut offset, block << self.tile_bits);
-        let mut period = vec![0; self.period_keys.len()];
-        // The first block may begin in the middle of the tile.
-        let skipped = (rows.start - (block << self.tile_bits)) as usize;
-        let mut tile = &self.tile[skipped * self.dims..];
-        let mut rest = out;
-        while !rest.is_empty() {
-            let (part, later) = rest.split_at_mut(tile.len().min(rest.len()));
-            for row in period.chunks_exact_mut(self.dims) {
-                row.iter_mut().zip(&offset).for_each(|(word, &offset)| *word = self.kernel_form(offset));
-            }
-            match self.randomization {
-                Randomization::Owen => kernels::owen(tile, &period, &self.period_keys, part),
-                Randomization::OwenExact => kernels::owen_exact(tile, &period, &self.period_keys, part),
-                Randomization::Shift => kernels::added(tile, &period, &self.period_keys, part),
-                _ => kernels::shifted(tile, &period, part),
-            }
-            let next = block.wrapping_add(1);
-            self.toggle(&mut offset, (block ^ next) << self.tile_bits);
-            (block, tile, rest) = (next, &self.tile, later);
+        if out.is_empty() {
+            return;
+        }
+        match self.randomization {
+            Randomization::OwenExact => return self.fill_by_word(rows, out, kernels::owen_exact),
+            Randomization::Shift => return self.fill_by_word(rows, out, kernels::added),
+            _ => {}
+        }
+        let tables = Tables::<T::Digits>::new(self, &rows);
+        let owen = self.randomization == Randomization::Owen;
+        if streaming::pays(out) {
+            let kernel = if owen { kernels::owen_past } else { kernels::shifted_past };
+            let mut out = Stream::new(out);
+            tables.for_each_block(rows, |tile, period| kernel(tile, period, &mut out));
+        } else {
+            let kernel = if owen { kernels::owen } else { kernels::shifted };
+            let mut rest = out;
+            tables.for_each_block(rows, |tile, period| {
+                let words = (tile.len() - LANES).min(rest.len());
+                let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
+                kernel(tile, period, part);
+                rest = later;
+            });
         }
     }
+
+    /// The randomizations that take all digits of a word, whatever the precision of the result.
+    fn fill_by_word<T: Unit>(&self, rows: Range<u64>, out: &mut [T], kernel: WordKernel<T>) {
+        let keys: Vec<_> = self.keys.iter().map(|key| key.bits64()).collect();
+        let mut rest = out;
+        Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
+            let words = (tile.len() - LANES).min(rest.len());
+            let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
+            kernel(tile, period.offsets, &keys, part);
+            rest = later;
+        });
+    }
+}
+
+/// Makes numbers from the words of a tile, the offsets of a row and the keys of the coordinates.
+type WordKernel<T> = fn(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]);
+
+/// Columns with the linear part of an affine randomization applied, and its shifts.
+fn built_in(plain: &[u64], keys: &[Seed], apply: fn(u64, Seed) -> u64) -> (Arc<[u64]>, Vec<u64>) {
+    let origin: Vec<_> = keys.iter().map(|&key| apply(0, key)).collect();
+    let rows = plain.chunks_exact(keys.len());
+    let columns = rows.flat_map(|row| {
+        row.iter().zip(keys).zip(&origin).map(|((&word, &key), shift)| apply(word, key) ^ shift)
+    });
+    (columns.collect(), origin)
 }
 
 impl PointSet for DigitalNet {
@@ -167,14 +167,4 @@ impl PointSet for DigitalNet {
     fn fill_f32(&self, rows: Range<u64>, out: &mut [f32]) {
         self.fill_units(rows, out);
     }
-}
-
-/// Columns with the linear part of an affine randomization applied, and its shifts.
-fn built_in(plain: &[u64], keys: &[Seed], apply: fn(u64, Seed) -> u64) -> (Arc<[u64]>, Vec<u64>) {
-    let origin: Vec<_> = keys.iter().map(|&key| apply(0, key)).collect();
-    let rows = plain.chunks_exact(keys.len());
-    let columns = rows.flat_map(|row| {
-        row.iter().zip(keys).zip(&origin).map(|((&word, &key), shift)| apply(word, key) ^ shift)
-    });
-    (columns.collect(), origin)
 }
