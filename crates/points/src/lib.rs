@@ -3,8 +3,8 @@
 //! A point set is a pure function of (index, dimension), randomized by a [`Seed`]:
 //!
 //! ```
-//! use evenlight_points::{Seed, sequences};
-//! let points = sequences::build("sobol", 2, "owen", Seed::new(7))?;
+//! use evenlight_points::{Seed, scramble::Randomization, sequences};
+//! let points = sequences::build("sobol", &sequences::Spec::new(2, Randomization::Owen, Seed::new(7)))?;
 //! let mut rows = [0.0; 2 * 8];
 //! points.fill(0..8, &mut rows);
 //! assert_eq!(rows[2 * 5 + 1], points.coord(5, 1));
@@ -18,6 +18,7 @@
 
 mod cells;
 pub mod convert;
+mod counts;
 mod data;
 pub mod digital_net;
 mod dyadic_pairs;

@@ -94,6 +94,10 @@ impl PointSet for MultiJitter {
         Some(self.n)
     }
 
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims, self.n, self.correlated, seed))
+    }
+
     fn coord(&self, index: u64, dim: usize) -> f64 {
         assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
         let pair = &self.pairs[dim / 2];

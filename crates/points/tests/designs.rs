@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use evenlight_points::scramble::Scrambling;
+use evenlight_points::scramble::Randomization;
 use evenlight_points::sequences::correlated_multi_jittered::correlated_multi_jittered;
 use evenlight_points::sequences::dyadic::dyadic;
 use evenlight_points::sequences::latin_hypercube::LatinHypercube;
@@ -18,7 +18,7 @@ fn cells(points: &dyn PointSet, rows: std::ops::Range<u64>, sides: &[(usize, u64
     let mut out = vec![0.0; (rows.end - rows.start) as usize * points.dims()];
     points.fill(rows, &mut out);
     // Exact: coordinates have 53 binary digits.
-    let cell = |x: f64, n: u64| ((x * 2f64.powi(53)) as u128 * u128::from(n) >> 53) as u64;
+    let cell = |x: f64, n: u64| (((x * 2f64.powi(53)) as u128 * u128::from(n)) >> 53) as u64;
     out.chunks_exact(points.dims()).map(|x| sides.iter().map(|&(dim, n)| cell(x[dim], n)).collect()).collect()
 }
 
@@ -96,11 +96,12 @@ fn orthogonal_arrays_are_even_in_all_pairs_and_triples() {
 /// Every elementary interval of every pair, in the first and in later blocks of 2^m, whatever the scramble.
 #[test]
 fn dyadic_pairs_fill_every_elementary_interval() {
-    let scrambles = [Scrambling::None, Scrambling::DigitalShift, Scrambling::Owen];
-    let nets: Vec<_> = (scrambles.map(|scramble| dyadic(8, scramble, Seed::new(3))).into_iter())
-        .chain(scrambles.map(|scramble| sz(8, scramble, Seed::new(3))))
-        .chain([progressive_multi_jittered(8, Seed::new(3))])
-        .collect();
+    let randomizations = [Randomization::None, Randomization::Linear, Randomization::Owen];
+    let nets: Vec<_> =
+        (randomizations.map(|randomization| dyadic(8, randomization, Seed::new(3))).into_iter())
+            .chain(randomizations.map(|randomization| sz(8, randomization, Seed::new(3))))
+            .chain([progressive_multi_jittered(8, Randomization::Owen, Seed::new(3))])
+            .collect();
     for net in &nets {
         for (m, x, block) in [(1, 0, 0), (5, 2, 0), (8, 4, 0), (8, 6, 5), (10, 0, 1), (11, 6, 0)] {
             let rows = block << m..(block + 1) << m;
@@ -112,7 +113,7 @@ fn dyadic_pairs_fill_every_elementary_interval() {
 
 #[test]
 fn nested_nets_are_even_in_quadruples() {
-    let points = sz(8, Scrambling::Owen, Seed::new(4));
+    let points = sz(8, Randomization::Owen, Seed::new(4));
     for first in [0, 4] {
         let sides = |k: [u64; 4]| (0..4).map(|i| (first + i, k[i])).collect::<Vec<_>>();
         for k in [[4, 4, 4, 4], [256, 1, 1, 1], [16, 4, 4, 1], [1, 16, 1, 16], [1, 4, 4, 16], [1, 1, 64, 4]] {
@@ -135,7 +136,7 @@ fn variance(replicates: u64, build: impl Fn(Seed) -> Box<dyn PointSet>, f: impl 
     errors.sum::<f64>() / replicates as f64
 }
 
-/// Σ (x_j − ½): one point at random in each of n slices leaves d/(12 n³); in each of k slices n/k points
+/// Sum of (x − ½): one point at random in each of n slices leaves d/(12 n³); in each of k slices n/k points
 /// leave d/(12 n k²). The mean of 4,000 squares of nearly normal numbers has a relative deviation of 0.022.
 #[test]
 fn sums_have_the_variance_of_their_slices() {

@@ -16,14 +16,16 @@
 //!
 //! Both map (0, seed 0) to 0: hash your seeds first, as [`Seed`](crate::Seed) does.
 
-use super::{Entry, Scrambling};
+use super::{Entry, Randomization};
 
 pub(super) const ENTRY: Entry = Entry {
-    scramble: Scrambling::Owen,
+    randomization: Randomization::Owen,
     name: "owen",
     cite: "A. B. Owen, Randomly permuted (t,m,s)-nets and (t,s)-sequences, LNS 106, 299-317 (1995), hashed as in \
            B. Burley, Practical hash-based Owen scrambling, JCGT 9(4), 1-20 (2020)",
     apply: |word, key| nested_uniform_scramble_64(word, key.bits64()),
+    affine: false,
+    nested: true,
 };
 
 /// Scrambles a 32-bit word, first digit in its most significant bit.

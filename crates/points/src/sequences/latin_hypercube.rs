@@ -9,13 +9,28 @@
 
 use std::ops::Range;
 
+use super::Entry;
 use crate::cells::Cells;
 use crate::convert::{Unit, unit_f64};
+use crate::counts::counted_points;
 use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
+use crate::scramble::Randomization;
 use crate::seed::counted;
 use crate::shuffle::{self, Shuffle};
 use crate::{PointSet, Seed};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "latin_hypercube",
+    cite: "M. D. McKay, R. J. Beckman and W. J. Conover, A comparison of three methods for selecting values of input \
+           variables, Technometrics 21, 239-245 (1979)",
+    accepts: &[Randomization::None],
+    takes: &["n"],
+    most_dims: 1 << 20,
+    build: |spec| {
+        Ok(Box::new(LatinHypercube::new(spec.dims, counted_points("latin_hypercube", spec)?, spec.seed)))
+    },
+};
 
 /// Coordinates that are made in one go at least, so that vector loops are long even if d is 1.
 const PERIOD: usize = 256;
@@ -80,6 +95,10 @@ impl PointSet for LatinHypercube {
 
     fn len(&self) -> Option<u64> {
         Some(self.n)
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims, self.n, seed))
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {

@@ -9,9 +9,23 @@ use std::sync::{Mutex, PoisonError};
 
 use rand_mt::Mt;
 
+use super::Entry;
 use crate::convert::unit_f64;
 use crate::point_set::check_length;
+use crate::scramble::Randomization;
 use crate::{PointSet, Seed};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "mersenne_twister",
+    cite: "M. Matsumoto and T. Nishimura, Mersenne twister, ACM Trans. Model. Comput. Simul. 8(1), 3-30 (1998)",
+    accepts: &[Randomization::None],
+    takes: &["n"],
+    most_dims: 1 << 16,
+    build: |spec| Ok(Box::new(MersenneTwister::new(spec.dims, spec.options.n.unwrap_or(ROWS), spec.seed))),
+};
+
+/// The rows there are if nothing is said: making them all takes minutes.
+const ROWS: u64 = 1 << 32;
 
 /// Rows that one dimension is made of at a time: one refill of its 624 words.
 const BLOCK: usize = 312;
@@ -20,6 +34,7 @@ const BLOCK: usize = 312;
 #[derive(Debug)]
 pub struct MersenneTwister {
     streams: Vec<Mutex<Stream>>,
+    n: u64,
 }
 
 /// The numbers of one dimension. Where the generator stands is a matter of speed alone.
@@ -31,10 +46,10 @@ struct Stream {
 }
 
 impl MersenneTwister {
-    /// Points of `dims` coordinates.
-    pub fn new(dims: usize, seed: Seed) -> Self {
+    /// The first `n` points of `dims` coordinates.
+    pub fn new(dims: usize, n: u64, seed: Seed) -> Self {
         let stream = |dim| Mutex::new(Stream::new(Self::key(seed, dim)));
-        Self { streams: (0..dims as u64).map(stream).collect() }
+        Self { streams: (0..dims as u64).map(stream).collect(), n }
     }
 
     /// The two words that initialize the generator of a dimension (`init_by_array` of the reference).
@@ -72,6 +87,14 @@ impl PointSet for MersenneTwister {
         self.streams.len()
     }
 
+    fn len(&self) -> Option<u64> {
+        Some(self.n)
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims(), self.n, seed))
+    }
+
     fn coord(&self, index: u64, dim: usize) -> f64 {
         let mut stream = self.streams[dim].lock().unwrap_or_else(PoisonError::into_inner);
         stream.seek(index);
@@ -97,7 +120,7 @@ mod tests {
     /// `numpy.random.RandomState([1, 2]).random_sample(2000)`, NumPy 2.
     #[test]
     fn numpy_gives_the_same_numbers() {
-        let points = MersenneTwister { streams: vec![Mutex::new(Stream::new([1, 2]))] };
+        let points = MersenneTwister { streams: vec![Mutex::new(Stream::new([1, 2]))], n: ROWS };
         for (index, bits) in NUMPY {
             assert_eq!(points.coord(index, 0), f64::from_bits(bits), "number {index}");
         }

@@ -13,12 +13,25 @@
 
 use std::ops::Range;
 
+use super::{Entry, Spec};
 use crate::cells::Cells;
 use crate::convert::unit_f64;
+use crate::counts::{counted_points, root, wrong_count};
 use crate::point_set::check_length;
+use crate::scramble::Randomization;
 use crate::seed::{counted, mix};
 use crate::shuffle::{self, Keys, Shuffle};
-use crate::{PointSet, Seed};
+use crate::{Error, PointSet, Seed};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "orthogonal_array",
+    cite: "A. B. Owen, Orthogonal arrays for computer experiments, integration and visualization, Statistica Sinica 2, \
+           439-452 (1992), as Latin hypercubes after B. Tang, J. Amer. Statist. Assoc. 88, 1392-1397 (1993)",
+    accepts: &[Randomization::None],
+    takes: &["n", "strength"],
+    most_dims: 46_338,
+    build: build,
+};
 
 /// The largest strength.
 pub const STRENGTH: usize = 3;
@@ -88,6 +101,31 @@ impl OrthogonalArray {
     }
 }
 
+fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
+    let (sequence, n) = ("orthogonal_array", counted_points("orthogonal_array", spec)?);
+    let strength = match spec.options.strength {
+        None | Some(2) => 2,
+        Some(3) => 3,
+        Some(other) => {
+            let (asked, allowed) = (other.to_string(), "2 or 3".into());
+            return Err(Error::Option { sequence, option: "strength", asked, allowed });
+        }
+    };
+    let (p, least) = (root(n, strength), spec.dims as u64 - 1);
+    let power = |p: u64| p.checked_pow(strength as u32);
+    if power(p) == Some(n) && is_prime(p) && p >= least {
+        return Ok(Box::new(OrthogonalArray::new(spec.dims, p, strength, spec.seed)));
+    }
+    let below = (least..=p).rev().find(|&p| is_prime(p)).and_then(power);
+    let above = (least.max(p + 1)..).find(|&p| is_prime(p)).and_then(power);
+    let allowed = format!("p^{strength} for a prime p of at least d - 1 = {least}");
+    Err(wrong_count(sequence, n, &allowed, [below, above]))
+}
+
+fn is_prime(p: u64) -> bool {
+    p > 1 && (2..=p.isqrt()).all(|divisor| !p.is_multiple_of(divisor))
+}
+
 impl PointSet for OrthogonalArray {
     fn dims(&self) -> usize {
         self.axes.len()
@@ -95,6 +133,10 @@ impl PointSet for OrthogonalArray {
 
     fn len(&self) -> Option<u64> {
         Some(self.n)
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims(), self.levels, self.strength, seed))
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {

@@ -9,9 +9,21 @@ use std::ops::Range;
 use rand_pcg::Lcg128Xsl64;
 use rand_pcg::rand_core::Rng;
 
+use super::Entry;
 use crate::convert::unit_f64;
 use crate::point_set::check_length;
+use crate::scramble::Randomization;
 use crate::{PointSet, Seed};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "pcg",
+    cite: "M. E. O'Neill, PCG: a family of simple fast space-efficient statistically good algorithms for random number \
+           generation, HMC-CS-2014-0905 (2014)",
+    accepts: &[Randomization::None],
+    takes: &[],
+    most_dims: 1 << 20,
+    build: |spec| Ok(Box::new(Pcg::new(spec.dims, spec.seed))),
+};
 
 /// Independent uniform points.
 #[derive(Debug)]
@@ -47,6 +59,10 @@ impl Pcg {
 impl PointSet for Pcg {
     fn dims(&self) -> usize {
         self.generators.len()
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims(), seed))
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {

@@ -6,9 +6,20 @@
 
 use std::ops::Range;
 
+use super::Entry;
 use crate::convert::unit_f64;
 use crate::point_set::check_length;
+use crate::scramble::Randomization;
 use crate::{PointSet, Seed};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "philox",
+    cite: "J. Salmon, M. Moraes, R. Dror and D. Shaw, Parallel random numbers: as easy as 1, 2, 3, SC'11 (2011)",
+    accepts: &[Randomization::None],
+    takes: &[],
+    most_dims: 1 << 20,
+    build: |spec| Ok(Box::new(Philox::new(spec.dims, spec.seed))),
+};
 
 /// Words that a counter gives.
 const WORDS: u64 = 4;
@@ -34,6 +45,10 @@ impl Philox {
 impl PointSet for Philox {
     fn dims(&self) -> usize {
         self.keys.len()
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims(), seed))
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {

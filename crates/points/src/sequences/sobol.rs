@@ -8,24 +8,25 @@ use super::Entry;
 use crate::Seed;
 use crate::data::{SOBOL_DIMS, sobol_initial};
 use crate::digital_net::{BITS, DigitalNet};
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sobol",
     cite: "I. M. Sobol', USSR Comput. Math. Math. Phys. 7(4), 86-112 (1967), with the direction numbers of S. Joe and \
            F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635-2654 (2008)",
-    accepts: &[Scrambling::Owen, Scrambling::DigitalShift, Scrambling::None],
+    accepts: Randomization::BASE_2,
+    takes: &[],
     most_dims: SOBOL_DIMS,
-    build: |dims, scramble, seed| Box::new(sobol(dims, scramble, seed)),
+    build: |spec| Ok(Box::new(sobol(spec.dims, spec.randomization, spec.seed))),
 };
 
 /// The first `dims` Sobol' coordinates.
 ///
 /// # Panics
 /// If there are more than 21,201 of them, or none.
-pub fn sobol(dims: usize, scramble: Scrambling, seed: Seed) -> DigitalNet {
+pub fn sobol(dims: usize, randomization: Randomization, seed: Seed) -> DigitalNet {
     let columns: Vec<_> = (0..dims).map(direction_numbers).collect();
-    DigitalNet::new(&columns, scramble, seed)
+    DigitalNet::new(&columns, randomization, seed)
 }
 
 /// The columns of one generating matrix, first digit in the most significant bit: what a renderer needs

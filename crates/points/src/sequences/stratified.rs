@@ -6,12 +6,24 @@
 
 use std::ops::Range;
 
+use super::{Entry, Spec};
 use crate::cells::Cells;
 use crate::convert::unit_f64;
+use crate::counts::{counted_points, root, wrong_count};
 use crate::point_set::check_length;
+use crate::scramble::Randomization;
 use crate::seed::counted;
 use crate::shuffle::{self, Keys, Shuffle};
-use crate::{PointSet, Seed};
+use crate::{Error, PointSet, Seed};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "stratified",
+    cite: "R. L. Cook, Stochastic sampling in computer graphics, ACM Trans. Graph. 5(1), 51-72 (1986)",
+    accepts: &[Randomization::None],
+    takes: &["n"],
+    most_dims: 1 << 20,
+    build: build,
+};
 
 /// Jittered points.
 #[derive(Debug)]
@@ -48,14 +60,15 @@ impl Stratified {
     }
 }
 
-/// The largest number whose `power`-th power is at most `n`.
-pub(crate) fn root(n: u64, power: usize) -> u64 {
-    let power = u32::try_from(power).unwrap_or(u32::MAX);
-    let mut root = (n as f64).powf(1.0 / f64::from(power)).round() as u64 + 1;
-    while root.checked_pow(power).is_none_or(|value| value > n) {
-        root -= 1;
+fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
+    let n = counted_points("stratified", spec)?;
+    let side = root(n, spec.dims);
+    let power = |side: u64| side.checked_pow(u32::try_from(spec.dims).ok()?);
+    if power(side) == Some(n) {
+        return Ok(Box::new(Stratified::new(spec.dims, n, spec.seed)));
     }
-    root
+    let allowed = format!("the {}th power of a whole number", spec.dims);
+    Err(wrong_count("stratified", n, &allowed, [power(side), power(side + 1)]))
 }
 
 impl PointSet for Stratified {
@@ -65,6 +78,10 @@ impl PointSet for Stratified {
 
     fn len(&self) -> Option<u64> {
         Some(self.n)
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims(), self.n, seed))
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {

@@ -14,18 +14,29 @@
 //! sequence of K, and those in another coset of K are it behind a unit triangular matrix, which only
 //! reorders blocks of points. Going down the tower to {0, 1} nests all groups.
 
+use super::Entry;
 use crate::Seed;
 use crate::digital_net::{BITS, DigitalNet};
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 use crate::tower_field::{self, product};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "sz",
+    cite: "H. Niederreiter, Monatsh. Math. 104, 273-337 (1987); nested as in A. Ahmed, M. Pharr, V. Ostromoukhov and \
+           H. Huang, SZ sequences, ACM Trans. Graph. (2025)",
+    accepts: Randomization::BASE_2,
+    takes: &[],
+    most_dims: 1 << tower_field::BITS,
+    build: |spec| Ok(Box::new(sz(spec.dims, spec.randomization, spec.seed))),
+};
 
 /// The first `dims` coordinates.
 ///
 /// # Panics
 /// If there are more than 65,536 of them, or none.
-pub fn sz(dims: usize, scramble: Scrambling, seed: Seed) -> DigitalNet {
+pub fn sz(dims: usize, randomization: Randomization, seed: Seed) -> DigitalNet {
     let columns: Vec<_> = (0..dims).map(|dim| matrix(dim as u32)).collect();
-    DigitalNet::new(&columns, scramble, seed)
+    DigitalNet::new(&columns, randomization, seed)
 }
 
 /// The columns of a generating matrix, first digit in the most significant bit.
