@@ -1,5 +1,7 @@
 //! The door to the points crate: a point set by name, and arrays to fill.
-use evenlight_points::{Seed, sequences};
+use std::num::NonZeroUsize;
+
+use evenlight_points::{Seed, fill_parallel, fill_parallel_f32, sequences};
 use numpy::{PyReadwriteArray2, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -40,8 +42,15 @@ impl PointSet {
         Ok(self.inner.coord(index, dim))
     }
 
-    /// Writes rows `start` to `stop` into a C-contiguous array of float64 or float32.
-    fn fill(&self, py: Python<'_>, start: u64, stop: u64, out: &Bound<'_, PyUntypedArray>) -> PyResult<()> {
+    /// Writes rows `start` to `stop` into a C-contiguous array of float64 or float32, with some threads.
+    fn fill(
+        &self,
+        py: Python<'_>,
+        start: u64,
+        stop: u64,
+        out: &Bound<'_, PyUntypedArray>,
+        workers: NonZeroUsize,
+    ) -> PyResult<()> {
         let shape = (stop.saturating_sub(start) as usize, self.inner.dims());
         if out.shape() != [shape.0, shape.1] {
             let message = format!("out must have shape {shape:?}, not {}", out.getattr("shape")?);
@@ -52,10 +61,10 @@ impl PointSet {
         }
         if let Ok(mut array) = out.extract::<PyReadwriteArray2<'_, f64>>() {
             let places = array.as_slice_mut()?;
-            py.detach(|| self.inner.fill(start..stop, places));
+            py.detach(|| fill_parallel(&*self.inner, start..stop, places, workers));
         } else if let Ok(mut array) = out.extract::<PyReadwriteArray2<'_, f32>>() {
             let places = array.as_slice_mut()?;
-            py.detach(|| self.inner.fill_f32(start..stop, places));
+            py.detach(|| fill_parallel_f32(&*self.inner, start..stop, places, workers));
         } else {
             let message = format!("out must be a writable array of float64 or float32, not {}", out.dtype());
             return Err(PyTypeError::new_err(message));

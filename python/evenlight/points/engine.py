@@ -1,6 +1,7 @@
 """What all sequences share: rows that are a pure function of their number, behind SciPy's protocol."""
 
 import operator
+import os
 from typing import Any, ClassVar, Self, SupportsIndex, TypeAlias, TypeVar, overload
 
 import numpy as np
@@ -58,16 +59,20 @@ class Engine(qmc.QMCEngine):
         self.rng = np.random.default_rng(self.seed)
 
     @overload
-    def points(self, start: SupportsIndex, stop: SupportsIndex) -> npt.NDArray[np.float64]: ...
+    def points(
+        self, start: SupportsIndex, stop: SupportsIndex, out: None = None, *, workers: SupportsIndex = 1
+    ) -> npt.NDArray[np.float64]: ...
     @overload
-    def points(self, start: SupportsIndex, stop: SupportsIndex, out: None) -> npt.NDArray[np.float64]: ...
-    @overload
-    def points(self, start: SupportsIndex, stop: SupportsIndex, out: _Floats) -> _Floats: ...
+    def points(
+        self, start: SupportsIndex, stop: SupportsIndex, out: _Floats, *, workers: SupportsIndex = 1
+    ) -> _Floats: ...
     def points(
         self,
         start: SupportsIndex,
         stop: SupportsIndex,
         out: npt.NDArray[np.float64] | npt.NDArray[np.float32] | None = None,
+        *,
+        workers: SupportsIndex = 1,
     ) -> npt.NDArray[np.float64] | npt.NDArray[np.float32]:
         """Rows `start` to `stop`, the latter not included, whatever was drawn before.
 
@@ -78,6 +83,8 @@ class Engine(qmc.QMCEngine):
         out : ndarray of float64 or float32, shape (stop - start, d), optional
             C-contiguous array to write to, which spares a new large one its page faults. In single
             precision, the numbers are truncated.
+        workers : int, optional
+            The most threads to use, -1 for all processors. The numbers do not depend on it.
 
         Returns
         -------
@@ -89,7 +96,8 @@ class Engine(qmc.QMCEngine):
         TypeError
             If `out` is not a writable array of float64 or float32.
         ValueError
-            If the range is not as above, or `out` has another shape or is not C-contiguous.
+            If the range is not as above, `workers` is neither -1 nor at least 1, or `out` has another
+            shape or is not C-contiguous.
 
         Examples
         --------
@@ -105,7 +113,7 @@ class Engine(qmc.QMCEngine):
             out = np.empty((last - first, self.d))
         elif not isinstance(out, np.ndarray):
             raise TypeError(f"out must be a numpy array, not {type(out).__name__}")
-        self._core.fill(first, last, out)
+        self._core.fill(first, last, out, _threads(workers))
         return out
 
     @property
@@ -211,6 +219,13 @@ def _integer(name: str, value: SupportsIndex, least: int) -> int:
     if number < least:
         raise ValueError(f"{name} must be at least {least}, not {number}")
     return number
+
+
+def _threads(workers: SupportsIndex) -> int:
+    number = _integer("workers", workers, -1)
+    if number == 0:
+        raise ValueError("workers must be at least 1, or -1 for all processors, not 0")
+    return number if number > 0 else os.cpu_count() or 1
 
 
 def _seed(seed: SeedLike) -> int:
