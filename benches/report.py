@@ -84,9 +84,9 @@ def _errors(record: Record) -> Iterator[str]:
         yield f"| {name} | {found['spp']} | {' | '.join(pairs)} | {_ratio(plain, found['ours'])} |"
     yield ""
     yield (
-        "How many of (pixel, channel) are held by 95 % intervals from 8 replicates (`Film.confidence_interval`, allowing "
-        "for the reference's own error), over four seeds. The mean of few samples is skewed, because bright paths are "
-        "rare: Student's t alone makes intervals that are too short."
+        "How many of (pixel, channel) are held by 95 % intervals from 8 replicates (`Film.confidence_interval`, "
+        "allowing for the reference's own error), over four seeds. The mean of few samples is skewed, because bright "
+        "paths are rare: Student's t alone makes intervals that are too short."
     )
     yield ""
     yield "| spp | our reference | Mitsuba's reference | lowest and highest seed | Student's t, our reference |"

@@ -1,5 +1,7 @@
 """Contracts of the point sequences: SciPy's protocol, exact bits, random access, clear refusals."""
 
+from __future__ import annotations
+
 import copy
 import doctest
 import importlib
@@ -231,13 +233,64 @@ def test_wrong_arrays_are_refused() -> None:
     with pytest.raises(ValueError, match="out must be C-contiguous"):
         sobol.points(0, 8, np.empty((2, 8)).T)
     with pytest.raises(TypeError, match="writable array of float64 or float32, not int64"):
-        sobol.points(0, 8, np.empty((8, 2), dtype=np.int64))  # type: ignore[type-var]
-    with pytest.raises(TypeError, match="out must be a numpy array, not list"):
-        sobol.points(0, 8, [[0.0, 0.0]] * 8)  # type: ignore[call-overload]
+        sobol.points(0, 8, np.empty((8, 2), dtype=np.int64))
+    with pytest.raises(TypeError, match="out must be a numpy array or export DLPack, not list"):
+        sobol.points(0, 8, [[0.0, 0.0]] * 8)
     constant = np.empty((8, 2))
     constant.flags.writeable = False
     with pytest.raises(TypeError, match="out must be a writable array"):
         sobol.points(0, 8, constant)
+
+
+@every_engine
+def test_replicates_are_a_leading_axis(name: str, settings: dict[str, Any]) -> None:
+    sequence = engine(name, settings)
+    if not sequence.is_random:
+        return
+    stacked = sequence.points(3, 11, replicates=4)
+    assert stacked.shape == (4, 8, sequence.d)
+    for r, replicate in enumerate(stacked):
+        np.testing.assert_array_equal(replicate, sequence.replicate(r).points(3, 11))
+    single = np.empty(stacked.shape, dtype=np.float32)
+    assert sequence.points(3, 11, single, replicates=4) is single
+    np.testing.assert_allclose(single, stacked, atol=2**-24)
+
+
+class Foreign:
+    """An array of another library: all that is known of it is that it exports DLPack."""
+
+    def __init__(self, array: npt.NDArray[np.float64]) -> None:
+        self.array = array
+
+    def __dlpack__(self, **arguments: Any) -> Any:
+        return self.array.__dlpack__(**arguments)
+
+    def __dlpack_device__(self) -> Any:
+        return self.array.__dlpack_device__()
+
+    @classmethod
+    def from_dlpack(cls, array: npt.NDArray[np.float64]) -> Foreign:
+        """Take over an array, as the array API standard has it."""
+        return cls(np.asarray(np.from_dlpack(array), dtype=np.float64))
+
+
+def test_points_go_into_arrays_of_other_libraries() -> None:
+    sobol = Sobol(3, seed=1)
+    out = Foreign(np.zeros((8, 3)))
+    assert sobol.points(0, 8, out) is out
+    np.testing.assert_array_equal(out.array, sobol.points(0, 8))
+    made = sobol.points(0, 8, xp=Foreign)
+    assert isinstance(made, Foreign)
+    np.testing.assert_array_equal(made.array, out.array)
+    assert isinstance(sobol.points(0, 8, xp=np), np.ndarray)
+    with pytest.raises(TypeError, match="give one of them"):
+        sobol.points(0, 8, out, xp=np)
+
+
+def test_scrambles_are_switched_as_in_scipy() -> None:
+    assert Sobol(2, scramble=True).scramble == "owen"
+    assert Sobol(2, scramble=False).scramble == "none"
+    assert Sobol(2, seed=2**64).seed == Sobol(2, seed=2**64).seed < 2**64
 
 
 # --- refusals ---
@@ -247,14 +300,15 @@ def test_wrong_arrays_are_refused() -> None:
     ("build", "message"),
     [
         (lambda: points.build("sobul", 2), "unknown sequence 'sobul'; known: sobol, halton, independent"),
-        (lambda: Sobol(2, scramble="own"), "unknown scramble 'own'; known: none, digital_shift, owen"),
-        (lambda: Halton(2, scramble="digital_shift"), "'digital_shift'; accepted: owen, none"),
+        (lambda: Sobol(2, scramble="own"), "unknown scramble 'own'; known: none, shift, digital_shift, "),
+        (lambda: points.build("sobol", 2, base=3), "sequence 'sobol' has no option 'base'; it has: none"),
         (lambda: points.build("independent", 2, scramble="owen"), "'owen'; accepted: none"),
         (lambda: Sobol(21_202), "1 to 21201 dimensions, not 21202"),
         (lambda: Halton(6_543), "1 to 6542 dimensions, not 6543"),
-        (lambda: Sobol(0), "d must be at least 1, not 0"),
+        (lambda: Sobol(-1), "d must be at least 0, not -1"),
         (lambda: Sobol(2, seed=-1), "seed must be at least 0, not -1"),
-        (lambda: Sobol(2, seed=2**64), "seed must be below 2\\^64"),
+        (lambda: Sobol(2).points(0, 4, replicates=0), "replicates must be at least 1, not 0"),
+        (lambda: Sobol(2, scramble="none").points(0, 4, replicates=2), "no randomness to replicate"),
         (lambda: Sobol(2).random(-1), "n must be at least 0, not -1"),
         (lambda: Sobol(2).fast_forward(-3), "n must be at least 0, not -3"),
         (lambda: Sobol(2).points(4, 3), "0 <= start <= stop"),
@@ -272,7 +326,7 @@ def test_wrong_values_are_named(build: Callable[[], object], message: str) -> No
     [
         (lambda: Sobol(2.5), "d must be an integer, not float"),  # type: ignore[arg-type]
         (lambda: Sobol(2, seed="7"), "seed must be an integer, not str"),  # type: ignore[arg-type]
-        (lambda: Sobol(2, scramble=True), "scramble must be a string, not bool"),  # type: ignore[arg-type]
+        (lambda: Sobol(2, scramble=3), "scramble must be a string, not int"),  # type: ignore[arg-type]
         (lambda: Sobol(2).random(1.5), "n must be an integer, not float"),  # type: ignore[arg-type]
         (lambda: Sobol(2, seed=1, rng=1), "two names for the same argument"),
     ],

@@ -127,7 +127,7 @@ def test_folders_are_no_scenes(refuse: Refuse, tmp_path: Path) -> None:
         (["sobolev"], "'sobol', 'halton', 'independent'"),
         (["sobol", "--dims", "99999"], "1 to 21201 dimensions, not 99999"),
         (["sobol", "--dims", "0"], "at least 1, not 0"),
-        (["sobol", "--scramble", "eggs"], "known: none, digital_shift, owen"),
+        (["sobol", "--scramble", "eggs"], "accepted: owen, owen_exact, linear, "),
         (["sobol", "--count", "1e3"], "'1e3' is not a whole number from 0 to"),
         (["sobol", "--count", "-1"], "'-1' is not a whole number"),
         (["sobol", "--count", "99999999999999999999"], "is not a whole number from 0 to"),

@@ -1,6 +1,6 @@
 """The compiled core: private. The public faces are the modules beside it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, final
 
 import numpy as np
@@ -36,14 +36,38 @@ __version__: str
 
 @final
 class PointSet:
-    def __new__(cls, name: str, dims: int, scramble: str, seed: int) -> PointSet: ...
+    def __new__(
+        cls,
+        name: str,
+        dims: int,
+        scramble: str,
+        seed: int,
+        *,
+        n: int | None = None,
+        base: int | None = None,
+        order: int | None = None,
+        strength: int | None = None,
+        generator: Sequence[int] | None = None,
+    ) -> PointSet: ...
     @property
     def dims(self) -> int: ...
+    @property
+    def count(self) -> int | None: ...
+    @property
+    def base(self) -> int | None: ...
     def coord(self, index: int, dim: int) -> float: ...
     def fill(self, start: int, stop: int, out: NDArray[np.float64] | NDArray[np.float32], workers: int) -> None: ...
+    def fill_replicates(
+        self,
+        seed: int,
+        rows: tuple[int, int],
+        replicates: int,
+        out: NDArray[np.float64] | NDArray[np.float32],
+        workers: int,
+    ) -> None: ...
 
 def replicate_seed(seed: int, replicate: int) -> int: ...
-def available_sequences() -> list[tuple[str, str, list[str], int]]: ...
+def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: ...
 
 # --- render ---
 

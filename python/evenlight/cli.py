@@ -84,7 +84,12 @@ def _info(options: argparse.Namespace) -> int:
 
 
 def _points(options: argparse.Namespace) -> int:
-    engine = points.build(options.sequence, options.dims, scramble=options.scramble, seed=options.seed)
+    if options.dims < 1:
+        raise ValueError(f"--dims must be at least 1, not {options.dims}")
+    settings = dict(options.option)
+    if points.SEQUENCES[options.sequence].finite:
+        settings.setdefault("n", options.start + options.count)
+    engine = points.build(options.sequence, options.dims, scramble=options.scramble, seed=options.seed, **settings)
     tables.write(options.output, engine, range(options.start, options.start + options.count), options.dims)
     return 0
 
@@ -207,6 +212,15 @@ def _add_points(parser: argparse.ArgumentParser) -> None:
     add("--start", type=_natural, default=0, help="index of the first row (%(default)s)")
     add("--scramble", help="how to randomize (the sequence's own default)")
     add("--seed", type=int, default=0, help="same seed, same bits (%(default)s)")
+    add(
+        "-O",
+        "--option",
+        action="append",
+        default=[],
+        type=_option,
+        metavar="NAME=VALUE",
+        help="what the sequence asks besides, such as base=3; a list as generator=1,182667",
+    )
     add("-o", "--output", default="-", metavar="FILE", help=".npy, .csv, or - for CSV on standard output")
     parser.set_defaults(run=_points)
 
@@ -239,6 +253,14 @@ def _definition(text: str) -> tuple[str, str]:
     if not (name and equals):
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")
     return name, value
+
+
+def _option(text: str) -> tuple[str, int | list[int]]:
+    name, equals, value = text.partition("=")
+    numbers = value.split(",")
+    if not (name.isidentifier() and equals and all(number.isascii() and number.isdecimal() for number in numbers)):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=NUMBER or NAME=NUMBER,NUMBER,…")
+    return name, int(value) if len(numbers) == 1 else [int(number) for number in numbers]
 
 
 def _one_line(error: BaseException) -> str:

@@ -197,7 +197,7 @@ def _skewness(replicates: Image, skip_missing: bool) -> NDArray[np.float64]:
 
 
 def _unskewed(t: NDArray[np.float64], skewness: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The T with ``T + s (T^2 / 3 + 1 / 6) + s^2 T^3 / 27 = t``, s the skewness of the mean: Hall's third transformation."""
+    """The T with ``T + s (T^2 / 3 + 1 / 6) + s^2 T^3 / 27 = t``, s the skewness of the mean (Hall 1992)."""
     with np.errstate(invalid="ignore", divide="ignore"):
         root = 3 * (np.cbrt(1 + skewness * (t - skewness / 6)) - 1) / skewness
     return np.where(np.abs(skewness) > 1e-6, root, t)

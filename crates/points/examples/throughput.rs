@@ -4,7 +4,8 @@
 
 use std::time::Instant;
 
-use evenlight_points::{Error, Seed, sequences};
+use evenlight_points::sequences::{self, Spec};
+use evenlight_points::{Error, Seed};
 
 /// Coordinates in each run, which is 8 MiB of doubles; the best of some runs counts.
 const COORDINATES: usize = 1 << 20;
@@ -17,7 +18,7 @@ fn main() -> Result<(), Error> {
         for scramble in entry.accepts {
             print!("{:<28}", format!("{} / {}", entry.name, scramble.name()));
             for dims in [2, 8, 64, 1024] {
-                let points = sequences::build(entry.name, dims, scramble.name(), Seed::new(1))?;
+                let points = sequences::build(entry.name, &Spec::new(dims, *scramble, Seed::new(1)))?;
                 let seconds = (0..RUNS).map(|_| {
                     let start = Instant::now();
                     points.fill(0..(COORDINATES / dims) as u64, &mut out);

@@ -2,23 +2,43 @@
 
 use std::fmt;
 
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 
 /// A request that cannot be met; the message says what was asked and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
     /// No sequence has this name.
     UnknownSequence(String),
-    /// No scramble has this name.
-    UnknownScramble(String),
-    /// The scramble exists, but does not apply to this sequence.
+    /// No randomization has this name.
+    UnknownRandomization(String),
+    /// The randomization exists, but does not apply to this sequence.
     NotAccepted {
         /// The name of the sequence.
         sequence: &'static str,
-        /// The scramble asked for.
-        scramble: Scrambling,
-        /// The scrambles it takes.
-        accepts: &'static [Scrambling],
+        /// The randomization asked for.
+        randomization: Randomization,
+        /// The randomizations it takes.
+        accepts: &'static [Randomization],
+    },
+    /// The option exists, but not for this sequence.
+    NotTaken {
+        /// The name of the sequence.
+        sequence: &'static str,
+        /// The option asked for.
+        option: &'static str,
+        /// The options it takes.
+        takes: &'static [&'static str],
+    },
+    /// An option has a value that the sequence cannot have, or is missing.
+    Option {
+        /// The name of the sequence.
+        sequence: &'static str,
+        /// The option.
+        option: &'static str,
+        /// The value, or "nothing".
+        asked: String,
+        /// What is allowed, as a phrase that follows "must be".
+        allowed: String,
     },
     /// The sequence has no such number of dimensions.
     Dimensions {
@@ -38,16 +58,27 @@ impl fmt::Display for Error {
                 let known = crate::sequences::ALL.iter().map(|entry| entry.name);
                 write!(f, "unknown sequence '{name}'; known: {}", list(known))
             }
-            Self::UnknownScramble(name) => {
+            Self::UnknownRandomization(name) => {
                 let known = crate::scramble::ALL.iter().map(|entry| entry.name);
                 write!(f, "unknown scramble '{name}'; known: {}", list(known))
             }
-            Self::NotAccepted { sequence, scramble, accepts } => write!(
+            Self::NotAccepted { sequence, randomization, accepts } => write!(
                 f,
                 "sequence '{sequence}' does not accept scramble '{}'; accepted: {}",
-                scramble.name(),
-                list(accepts.iter().map(|scramble| scramble.name()))
+                randomization.name(),
+                list(accepts.iter().map(|randomization| randomization.name()))
             ),
+            Self::NotTaken { sequence, option, takes: [] } => {
+                write!(f, "sequence '{sequence}' has no option '{option}'; it has none")
+            }
+            Self::NotTaken { sequence, option, takes } => write!(
+                f,
+                "sequence '{sequence}' has no option '{option}'; it has: {}",
+                list(takes.iter().copied())
+            ),
+            Self::Option { sequence, option, asked, allowed } => {
+                write!(f, "option '{option}' of sequence '{sequence}' must be {allowed}, not {asked}")
+            }
             Self::Dimensions { sequence, asked, most } => {
                 write!(f, "sequence '{sequence}' has 1 to {most} dimensions, not {asked}")
             }

@@ -3,8 +3,8 @@
 //! A point set is a pure function of (index, dimension), randomized by a [`Seed`]:
 //!
 //! ```
-//! use evenlight_points::{Seed, sequences};
-//! let points = sequences::build("sobol", 2, "owen", Seed::new(7))?;
+//! use evenlight_points::{Seed, scramble::Randomization, sequences};
+//! let points = sequences::build("sobol", &sequences::Spec::new(2, Randomization::Owen, Seed::new(7)))?;
 //! let mut rows = [0.0; 2 * 8];
 //! points.fill(0..8, &mut rows);
 //! assert_eq!(rows[2 * 5 + 1], points.coord(5, 1));
@@ -55,3 +55,8 @@ pub use parallel::{fill_parallel, fill_parallel_f32};
 #[cfg(feature = "std")]
 pub use point_set::PointSet;
 pub use seed::Seed;
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

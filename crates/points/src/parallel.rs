@@ -13,8 +13,10 @@ use crate::point_set::check_length;
 /// [`PointSet::fill`] with up to `workers` threads.
 ///
 /// ```
-/// use evenlight_points::{Seed, fill_parallel, sequences};
-/// let points = sequences::build("sobol", 3, "owen", Seed::new(7))?;
+/// use evenlight_points::scramble::Randomization;
+/// use evenlight_points::sequences::{self, Spec};
+/// use evenlight_points::{Seed, fill_parallel};
+/// let points = sequences::build("sobol", &Spec::new(3, Randomization::Owen, Seed::new(7)))?;
 /// let (mut alone, mut together) = (vec![0.0; 3 * 1000], vec![0.0; 3 * 1000]);
 /// points.fill(5..1005, &mut alone);
 /// fill_parallel(&*points, 5..1005, &mut together, 4.try_into().unwrap());

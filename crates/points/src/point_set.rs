@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::Seed;
 use crate::convert::truncate_to_f32;
 
 /// A finite or endless list of points of the unit cube.
@@ -22,6 +23,14 @@ pub trait PointSet: Send + Sync {
     fn is_empty(&self) -> bool {
         self.len() == Some(0)
     }
+
+    /// The base in which counts of points are balanced: of its powers, from index 0 on. `None` if no count is special.
+    fn base(&self) -> Option<u64> {
+        None
+    }
+
+    /// The same points randomized anew: what building them with another seed gives, at less cost.
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet>;
 
     /// Coordinate `dim` of point `index`.
     ///

@@ -6,13 +6,13 @@
 //!
 //! ```
 //! use evenlight_points::convert::unit_f32;
-//! use evenlight_points::{Seed, sequences, stateless};
+//! use evenlight_points::scramble::Randomization;
+//! use evenlight_points::{PointSet, Seed, sequences::sobol::sobol, stateless};
 //! // The same points as those of the sequence, in single precision.
-//! let points = sequences::build("sobol", 3, "owen", Seed::new(7))?;
+//! let points = sobol(3, Randomization::Owen, Seed::new(7));
 //! let mut row = [0.0; 3];
 //! points.fill_f32(100..101, &mut row);
 //! assert_eq!(row[2], unit_f32(stateless::owen_sobol(100, 2, 7)));
-//! # Ok::<(), evenlight_points::Error>(())
 //! ```
 //!
 //! A path of many dimensions need not use the later ones of Sobol', whose pairs are uneven at few points. *Padding*

@@ -1,6 +1,8 @@
 //! Large arrays are written past the caches, and by several threads: with the bits of small ones.
 
-use evenlight_points::{PointSet, Seed, fill_parallel, fill_parallel_f32, sequences};
+use evenlight_points::scramble::Randomization;
+use evenlight_points::sequences::{self, Spec};
+use evenlight_points::{PointSet, Seed, fill_parallel, fill_parallel_f32};
 
 /// Enough to be written past the caches in either precision, even if four threads share it.
 const PLACES: usize = 1 << 23;
@@ -9,7 +11,8 @@ const PLACES: usize = 1 << 23;
 const START: u64 = (1 << 33) - 1003;
 
 fn sobol(dims: usize, scramble: &str) -> Box<dyn PointSet> {
-    sequences::build("sobol", dims, scramble, Seed::new(5)).expect("valid")
+    let randomization = Randomization::named(scramble).expect("known");
+    sequences::build("sobol", &Spec::new(dims, randomization, Seed::new(5))).expect("valid")
 }
 
 /// Rows that were asked for a few at a time.
@@ -28,7 +31,15 @@ fn in_pieces<T: Copy + Default>(
 
 #[test]
 fn arrays_beyond_the_caches_have_the_bits_of_small_ones() {
-    for (dims, scramble) in [(1, "owen"), (3, "digital_shift"), (64, "owen"), (1027, "none")] {
+    for (dims, scramble) in [
+        (1, "owen"),
+        (3, "digital_shift"),
+        (64, "owen"),
+        (1027, "none"),
+        (5, "owen_exact"),
+        (7, "shift"),
+        (9, "linear"),
+    ] {
         let points = sobol(dims, scramble);
         let rows = (PLACES / dims) as u64;
         // One place later than the allocation: lines of cache begin elsewhere.

@@ -4,22 +4,31 @@
 //! test: over the some hundred checks here, a correct generator with a fresh seed would fail one of
 //! ten thousand runs.
 
-use evenlight_points::{Error, PointSet, Seed, scramble, sequences};
+mod examples;
 
-/// Runs a law on every sequence × scramble.
+use std::ops::Range;
+
+use evenlight_points::scramble::{self, Randomization};
+use evenlight_points::sequences::{self, Options, Spec};
+use evenlight_points::{Error, PointSet, Seed};
+use examples::{build, pairs};
+
+/// Runs a law on every sequence × randomization; those with fewer dimensions come with all they have.
 fn on_all(dims: usize, seed: u64, law: impl Fn(&str, &dyn PointSet)) {
-    for entry in sequences::ALL {
-        for scramble in entry.accepts {
-            let points = sequences::build(entry.name, dims, scramble.name(), Seed::new(seed));
-            law(
-                &format!("{} / {}", entry.name, scramble.name()),
-                &*points.expect("the registry accepts its own scrambles"),
-            );
-        }
+    for (entry, randomization) in pairs() {
+        let name = format!("{} / {}", entry.name, randomization.name());
+        law(&name, &*build(entry, dims, randomization, Seed::new(seed)));
     }
 }
 
-fn rows(points: &dyn PointSet, rows: std::ops::Range<u64>) -> Vec<f64> {
+/// The part of a range that a finite set has.
+fn part(points: &dyn PointSet, rows: Range<u64>) -> Range<u64> {
+    let end = points.len().map_or(rows.end, |len| rows.end.min(len));
+    rows.start.min(end)..end
+}
+
+fn rows(points: &dyn PointSet, rows: Range<u64>) -> Vec<f64> {
+    let rows = part(points, rows);
     let mut out = vec![f64::NAN; (rows.end - rows.start) as usize * points.dims()];
     points.fill(rows, &mut out);
     out
@@ -45,6 +54,7 @@ fn order_and_size_of_access_do_not_matter() {
                 [0..1, 0..70, 5..61, 1021..1030, (1 << 33) - 3..(1 << 33) + 4, u64::MAX - 2..u64::MAX]
             {
                 let filled = rows(points, range.clone());
+                let dims = points.dims();
                 for (i, x) in filled.iter().enumerate().rev().step_by(1 + dims / 30) {
                     let expected = points.coord(range.start + (i / dims) as u64, i % dims);
                     assert_eq!(x.to_bits(), expected.to_bits(), "{name}, d = {dims}, {range:?}, place {i}");
@@ -58,33 +68,44 @@ fn order_and_size_of_access_do_not_matter() {
 fn long_fills_have_the_bits_of_single_coordinates() {
     on_all(3, 3, |name, points| {
         let filled = rows(points, 1000..6000);
+        let dims = points.dims();
         for (i, x) in filled.iter().enumerate() {
-            assert_eq!(*x, points.coord(1000 + (i / 3) as u64, i % 3), "{name}, place {i}");
+            assert_eq!(*x, points.coord(1000 + (i / dims) as u64, i % dims), "{name}, place {i}");
         }
     });
 }
 
 #[test]
 fn fewer_dimensions_are_the_first_of_more() {
-    for entry in sequences::ALL {
-        for scramble in entry.accepts {
-            let build =
-                |dims| sequences::build(entry.name, dims, scramble.name(), Seed::new(4)).expect("valid");
-            let (few, many) = (build(2), build(9));
-            assert!(
-                (0..50).all(|i| (0..2).all(|dim| few.coord(i, dim) == many.coord(i, dim))),
-                "{}",
-                entry.name
-            );
+    for (entry, randomization) in pairs() {
+        let [few, many] = [2, 9].map(|dims| build(entry, dims, randomization, Seed::new(4)));
+        for index in part(&*few, 0..50) {
+            for dim in 0..few.dims() {
+                assert_eq!(few.coord(index, dim), many.coord(index, dim), "{}", entry.name);
+            }
         }
+    }
+}
+
+#[test]
+fn reseeded_points_are_those_built_with_the_seed() {
+    for (entry, randomization) in pairs() {
+        let [other, built] = [5, 6].map(|seed| build(entry, 7, randomization, Seed::new(seed)));
+        let reseeded = other.reseeded(Seed::new(6));
+        assert_eq!(
+            (reseeded.dims(), reseeded.len(), reseeded.base()),
+            (built.dims(), built.len(), built.base())
+        );
+        assert_eq!(rows(&*reseeded, 0..99), rows(&*built, 0..99), "{}, {}", entry.name, randomization.name());
     }
 }
 
 #[test]
 fn single_precision_is_the_truncated_double() {
     on_all(5, 5, |name, points| {
-        let mut single = vec![0.0_f32; 5 * 1000];
-        points.fill_f32(7..1007, &mut single);
+        let range = part(points, 7..1007);
+        let mut single = vec![0.0_f32; points.dims() * (range.end - range.start) as usize];
+        points.fill_f32(range, &mut single);
         for (short, long) in single.iter().zip(rows(points, 7..1007)) {
             let gap = long - f64::from(*short);
             assert!(*short < 1.0 && (0.0..2f64.powi(-24)).contains(&gap), "{name}: {short} for {long}");
@@ -107,33 +128,33 @@ const CHI_SQUARE_255: f64 = 377.2;
 #[test]
 fn marginals_are_uniform() {
     on_all(16, 6, |name, points| {
-        for dim in [0, 1, 2, 8, 15] {
-            let bins = (0..1 << 14).map(|i| (points.coord(i, dim) * 64.0) as usize);
+        for dim in [0, 1, 2, 8, 15].into_iter().filter(|&dim| dim < points.dims()) {
+            let bins = part(points, 0..1 << 14).map(|i| (points.coord(i, dim) * 64.0) as usize);
             let statistic = chi_square(64, bins);
             assert!(statistic < CHI_SQUARE_63, "{name}, dimension {dim}: {statistic}");
         }
     });
 }
 
-/// Every randomized sequence, as a function of the replicate.
-fn on_replicates(law: impl Fn(&str, &dyn Fn(u64, u64, usize) -> f64)) {
-    for entry in sequences::ALL {
-        for scramble in entry.accepts.iter().filter(|s| s.name() != "none" || entry.name == "independent") {
-            let seed = Seed::new(7);
-            let sets: Vec<_> = (0..1 << 13)
-                .map(|r| sequences::build(entry.name, 3, scramble.name(), seed.replicate(r)).expect("valid"))
-                .collect();
-            law(&format!("{} / {}", entry.name, scramble.name()), &|replicate, index, dim| {
-                sets[replicate as usize].coord(index, dim)
-            });
+/// Every randomized sequence, as a function of replicate, row and dimension, with its rows and dimensions.
+fn on_replicates(law: impl Fn(&str, &dyn Fn(u64, u64, usize) -> f64, u64, usize)) {
+    for (entry, randomization) in pairs() {
+        let original = build(entry, 3, randomization, Seed::new(7));
+        if original.coord(1, 0) == original.reseeded(Seed::new(8)).coord(1, 0) {
+            continue; // nothing in it is random
         }
+        let sets: Vec<_> = (0..1 << 13).map(|r| original.reseeded(Seed::new(7).replicate(r))).collect();
+        let coord = |replicate, index, dim| sets[replicate as usize].coord(index, dim);
+        let name = format!("{} / {}", entry.name, randomization.name());
+        law(&name, &coord, original.len().unwrap_or(u64::MAX), original.dims());
     }
 }
 
 #[test]
 fn replicates_are_uniform_and_independent() {
-    on_replicates(|name, coord| {
+    on_replicates(|name, coord, len, dims| {
         for (index, dim) in [(0, 0), (0, 1), (1, 2), (6, 1), (12345, 2)] {
+            let (index, dim) = (index % len, dim % dims);
             let bins = (0..1 << 13).map(|r| (coord(r, index, dim) * 64.0) as usize);
             let statistic = chi_square(64, bins);
             assert!(statistic < CHI_SQUARE_63, "{name}, row {index}, dimension {dim}: {statistic}");
@@ -143,9 +164,12 @@ fn replicates_are_uniform_and_independent() {
             let statistic = chi_square(256, neighbors);
             assert!(statistic < CHI_SQUARE_255, "{name}, neighboring replicates, row {index}: {statistic}");
 
-            let dimensions = (0..1 << 13).map(|r| cell(coord(r, index, dim), coord(r, index, (dim + 1) % 3)));
-            let statistic = chi_square(256, dimensions);
-            assert!(statistic < CHI_SQUARE_255, "{name}, two dimensions, row {index}: {statistic}");
+            if dims > 1 {
+                let next = (dim + 1) % dims;
+                let pairs = (0..1 << 13).map(|r| cell(coord(r, index, dim), coord(r, index, next)));
+                let statistic = chi_square(256, pairs);
+                assert!(statistic < CHI_SQUARE_255, "{name}, two dimensions, row {index}: {statistic}");
+            }
         }
     });
 }
@@ -153,32 +177,46 @@ fn replicates_are_uniform_and_independent() {
 #[test]
 fn names_lead_back_to_their_scrambles() {
     for entry in scramble::ALL {
-        assert_eq!(scramble::Scrambling::named(entry.name), Ok(entry.scramble));
-        assert_eq!(entry.scramble.name(), entry.name);
+        assert_eq!(Randomization::named(entry.name), Ok(entry.randomization));
+        assert_eq!(entry.randomization.name(), entry.name);
     }
 }
 
 #[test]
 fn wrong_requests_are_refused_with_what_is_allowed() {
-    let message = |name, dims, scramble| match sequences::build(name, dims, scramble, Seed::new(0)) {
-        Ok(_) => panic!("{name}, {dims}, {scramble} should be refused"),
-        Err(error) => error.to_string(),
+    let message = |name, dims, randomization, options| {
+        let spec = Spec { options, ..Spec::new(dims, randomization, Seed::new(0)) };
+        match sequences::build(name, &spec) {
+            Ok(_) => panic!("{name}, {spec:?} should be refused"),
+            Err(error) => error.to_string(),
+        }
     };
-    assert_eq!(message("sobul", 2, "owen"), "unknown sequence 'sobul'; known: sobol, halton, independent");
-    assert_eq!(message("sobol", 2, "own"), "unknown scramble 'own'; known: none, digital_shift, owen");
+    let none = Options::default;
+    let unknown = message("sobul", 2, Randomization::Owen, none());
+    assert!(unknown.starts_with("unknown sequence 'sobul'; known: sobol, "), "{unknown}");
+    let unknown = Randomization::named("own").expect_err("unknown").to_string();
+    assert!(unknown.starts_with("unknown scramble 'own'; known: none, shift, "), "{unknown}");
     assert_eq!(
-        message("halton", 2, "digital_shift"),
-        "sequence 'halton' does not accept scramble 'digital_shift'; accepted: owen, none"
+        message("independent", 2, Randomization::DigitalShift, none()),
+        "sequence 'independent' does not accept scramble 'digital_shift'; accepted: none"
     );
-    assert_eq!(message("sobol", 0, "none"), "sequence 'sobol' has 1 to 21201 dimensions, not 0");
-    assert!(message("sobol", 21_202, "none").ends_with("not 21202"));
-    let error = sequences::build("halton", 6_543, "none", Seed::new(0)).err();
+    assert_eq!(
+        message("sobol", 2, Randomization::None, Options { order: Some(2), ..none() }),
+        "sequence 'sobol' has no option 'order'; it has none"
+    );
+    assert_eq!(
+        message("sobol", 0, Randomization::None, none()),
+        "sequence 'sobol' has 1 to 21201 dimensions, not 0"
+    );
+    assert!(message("sobol", 21_202, Randomization::None, none()).ends_with("not 21202"));
+    let error = sequences::build("halton", &Spec::new(6_543, Randomization::None, Seed::new(0))).err();
     assert_eq!(error, Some(Error::Dimensions { sequence: "halton", asked: 6_543, most: 6_542 }));
 }
 
 #[test]
 #[should_panic(expected = "need 10 places, not 9")]
 fn a_buffer_of_the_wrong_size_is_refused() {
-    let points = sequences::build("sobol", 2, "none", Seed::new(0)).expect("valid");
+    let spec = Spec::new(2, Randomization::None, Seed::new(0));
+    let points = sequences::build("sobol", &spec).expect("valid");
     points.fill(0..5, &mut [0.0; 9]);
 }

@@ -1,9 +1,12 @@
 //! Known numbers of the constructions: quality parameters, elementary intervals, star discrepancies.
 
-use evenlight_points::{PointSet, Seed, sequences};
+use evenlight_points::scramble::Randomization;
+use evenlight_points::sequences::{self, Spec};
+use evenlight_points::{PointSet, Seed};
 
 fn build(name: &str, dims: usize, scramble: &str, seed: u64) -> Box<dyn PointSet> {
-    sequences::build(name, dims, scramble, Seed::new(seed)).expect("valid")
+    let randomization = Randomization::named(scramble).expect("known");
+    sequences::build(name, &Spec::new(dims, randomization, Seed::new(seed))).expect("valid")
 }
 
 /// All ways to write `sum` as an ordered sum of `parts` numbers from 0 on.
@@ -73,7 +76,9 @@ fn sobol_has_the_known_quality_parameters() {
 #[test]
 fn elementary_intervals_hold_the_same_number_of_sobol_points() {
     for (dims, m, t) in [(1, 10, 0), (2, 10, 0), (3, 9, 1), (4, 7, 2), (5, 8, 3)] {
-        for scramble in ["none", "digital_shift", "owen"] {
+        for scramble in
+            ["none", "digital_shift", "linear", "linear_striped", "linear_i_binomial", "owen", "owen_exact"]
+        {
             for block in [0, 1, 77] {
                 let points = build("sobol", dims, scramble, 5);
                 // Later blocks are affine images of the first, with the same matrices.

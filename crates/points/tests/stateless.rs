@@ -1,22 +1,29 @@
 //! The functions for renderers give the points of the sequences.
 
+use evenlight_points::PointSet;
 use evenlight_points::convert::{unit_f32, unit_f64};
+use evenlight_points::scramble::Randomization;
 use evenlight_points::stateless::{SOBOL_DIMS, owen_sobol, shuffled, sobol};
-use evenlight_points::{Seed, sequences};
+use evenlight_points::{Seed, sequences::sobol::sobol as sequence};
 
 const INDICES: [u32; 6] = [0, 1, 2, 1000, 0x8000_0001, u32::MAX];
 
 #[test]
 fn words_are_those_of_the_sequences() {
-    for (scramble, seed) in [("none", 0), ("owen", 0), ("owen", u64::MAX)] {
-        let points =
-            sequences::build("sobol", SOBOL_DIMS as usize, scramble, Seed::new(seed)).expect("valid");
+    for (scramble, seed) in
+        [(Randomization::None, 0), (Randomization::Owen, 0), (Randomization::Owen, u64::MAX)]
+    {
+        let points = sequence(SOBOL_DIMS as usize, scramble, Seed::new(seed));
         for index in INDICES {
             let mut row = [f32::NAN; SOBOL_DIMS as usize];
             points.fill_f32(u64::from(index)..u64::from(index) + 1, &mut row);
             for (dim, x) in (0..).zip(row) {
-                let word = if scramble == "none" { sobol(index, dim) } else { owen_sobol(index, dim, seed) };
-                assert_eq!(unit_f32(word), x, "{scramble}, seed {seed}, index {index}, dimension {dim}");
+                let word = if scramble == Randomization::None {
+                    sobol(index, dim)
+                } else {
+                    owen_sobol(index, dim, seed)
+                };
+                assert_eq!(unit_f32(word), x, "{scramble:?}, seed {seed}, index {index}, dimension {dim}");
                 // All 32 digits, not only those that single precision shows.
                 let double = points.coord(u64::from(index), dim as usize);
                 assert_eq!(unit_f64(u64::from(word) << 32), (double * 2f64.powi(32)).floor() / 2f64.powi(32));

@@ -5,10 +5,11 @@
 #![cfg(feature = "statistics")]
 
 use evenlight_points::convert::unit_f64;
-use evenlight_points::scramble::Scrambling;
+use evenlight_points::scramble::Randomization;
 use evenlight_points::scramble::owen::{nested_uniform_scramble_32, nested_uniform_scramble_64};
 use evenlight_points::sequences::sobol::sobol;
-use evenlight_points::{PointSet, Seed, sequences};
+use evenlight_points::sequences::{self, Spec};
+use evenlight_points::{PointSet, Seed};
 
 /// 12 n³ times the variance of the mean of x, which is 1 for a nested uniform scramble.
 fn variance_ratio(n: u64, seeds: u64, mean: impl Fn(Seed) -> f64) -> f64 {
@@ -71,7 +72,7 @@ fn owen_scrambling_in_two_dimensions_has_the_exact_variance() {
         let n = 1_usize << m;
         let mut rows = vec![0.0; 2 * n];
         let errors = (0..40_000).map(|r| {
-            sobol(2, Scrambling::Owen, Seed::new(m).replicate(r)).fill(0..n as u64, &mut rows);
+            sobol(2, Randomization::Owen, Seed::new(m).replicate(r)).fill(0..n as u64, &mut rows);
             let mean = rows.chunks_exact(2).map(|x| x[0] * x[1]).sum::<f64>() / n as f64;
             (mean - 0.25).powi(2)
         });
@@ -88,8 +89,9 @@ fn errors_fall_as_fast_as_claimed() {
         let rmse = |n: usize| {
             let mut rows = vec![0.0; 3 * n];
             let errors = (0..1_000).map(|r| {
-                let scramble = if name == "independent" { "none" } else { "owen" };
-                let points = sequences::build(name, 3, scramble, Seed::new(5).replicate(r)).expect("valid");
+                let scramble = if name == "independent" { Randomization::None } else { Randomization::Owen };
+                let points = sequences::build(name, &Spec::new(3, scramble, Seed::new(5).replicate(r)))
+                    .expect("valid");
                 points.fill(0..n as u64, &mut rows);
                 let f = |x: &[f64]| x.iter().map(|x| x * x.exp()).product::<f64>();
                 (rows.chunks_exact(3).map(f).sum::<f64>() / n as f64 - 1.0).powi(2)

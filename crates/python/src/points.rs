@@ -1,8 +1,12 @@
 //! The door to the points crate: a point set by name, and arrays to fill.
+use std::borrow::Borrow;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 
-use evenlight_points::{Seed, fill_parallel, fill_parallel_f32, sequences};
-use numpy::{PyReadwriteArray2, PyUntypedArray, PyUntypedArrayMethods};
+use evenlight_points::scramble::Randomization;
+use evenlight_points::sequences::{self, Options, Spec};
+use evenlight_points::{Error, Seed, fill_parallel, fill_parallel_f32};
+use numpy::{PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -22,15 +26,46 @@ struct PointSet {
 #[pymethods]
 impl PointSet {
     #[new]
-    fn new(name: &str, dims: usize, scramble: &str, seed: u64) -> PyResult<Self> {
-        let built = sequences::build(name, dims, scramble, Seed::new(seed));
-        Ok(Self { inner: built.map_err(|error| PyValueError::new_err(error.to_string()))? })
+    #[pyo3(signature = (name, dims, scramble, seed, *, n=None, base=None, order=None, strength=None, generator=None))]
+    #[expect(clippy::too_many_arguments, reason = "plain values, by keyword")]
+    fn new(
+        name: &str,
+        dims: usize,
+        scramble: &str,
+        seed: u64,
+        n: Option<u64>,
+        base: Option<u32>,
+        order: Option<u32>,
+        strength: Option<u32>,
+        generator: Option<Vec<u64>>,
+    ) -> PyResult<Self> {
+        let options = Options { n, base, order, strength, generator };
+        let build = || {
+            // an unknown sequence is said before an unknown randomization
+            sequences::named(name)?;
+            let spec = Spec { options, ..Spec::new(dims, Randomization::named(scramble)?, Seed::new(seed)) };
+            sequences::build(name, &spec)
+        };
+        let built = build().map_err(|error: Error| PyValueError::new_err(error.to_string()));
+        Ok(Self { inner: built? })
     }
 
     /// The number of coordinates of a point.
     #[getter]
     fn dims(&self) -> usize {
         self.inner.dims()
+    }
+
+    /// The number of points; None if there is no end to them.
+    #[getter]
+    fn count(&self) -> Option<u64> {
+        self.inner.len()
+    }
+
+    /// The base in whose powers counts are balanced; None if no count is special.
+    #[getter]
+    fn base(&self) -> Option<u64> {
+        self.inner.base()
     }
 
     /// One coordinate of one point.
@@ -51,26 +86,67 @@ impl PointSet {
         out: &Bound<'_, PyUntypedArray>,
         workers: NonZeroUsize,
     ) -> PyResult<()> {
-        let shape = (stop.saturating_sub(start) as usize, self.inner.dims());
-        if out.shape() != [shape.0, shape.1] {
-            let message = format!("out must have shape {shape:?}, not {}", out.getattr("shape")?);
-            return Err(PyValueError::new_err(message));
-        }
-        if !out.is_c_contiguous() {
-            return Err(PyValueError::new_err("out must be C-contiguous"));
-        }
-        if let Ok(mut array) = out.extract::<PyReadwriteArray2<'_, f64>>() {
-            let places = array.as_slice_mut()?;
-            py.detach(|| fill_parallel(&*self.inner, start..stop, places, workers));
-        } else if let Ok(mut array) = out.extract::<PyReadwriteArray2<'_, f32>>() {
-            let places = array.as_slice_mut()?;
-            py.detach(|| fill_parallel_f32(&*self.inner, start..stop, places, workers));
-        } else {
-            let message = format!("out must be a writable array of float64 or float32, not {}", out.dtype());
-            return Err(PyTypeError::new_err(message));
-        }
-        Ok(())
+        let rows = (stop.saturating_sub(start)) as usize;
+        check(out, &[rows, self.inner.dims()])?;
+        fill(py, (1, workers), |_| &*self.inner, start..stop, out)
     }
+
+    /// Writes the same rows of replicates 0, 1, … of the points with this seed, one after the other.
+    fn fill_replicates(
+        &self,
+        py: Python<'_>,
+        seed: u64,
+        rows: (u64, u64),
+        replicates: u64,
+        out: &Bound<'_, PyUntypedArray>,
+        workers: NonZeroUsize,
+    ) -> PyResult<()> {
+        let (start, stop) = rows;
+        check(out, &[replicates as usize, stop.saturating_sub(start) as usize, self.inner.dims()])?;
+        let set = |r| self.inner.reseeded(Seed::new(replicate_seed(seed, r)));
+        fill(py, (replicates, workers), set, start..stop, out)
+    }
+}
+
+/// Refuses arrays that are not as promised.
+fn check(out: &Bound<'_, PyUntypedArray>, shape: &[usize]) -> PyResult<()> {
+    if out.shape() != shape {
+        let wanted = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        let message = format!("out must have shape ({wanted}), not {}", out.getattr("shape")?);
+        return Err(PyValueError::new_err(message));
+    }
+    if !out.is_c_contiguous() {
+        return Err(PyValueError::new_err("out must be C-contiguous"));
+    }
+    Ok(())
+}
+
+/// Writes the same rows of some point sets, one set after the other.
+fn fill<S: Borrow<dyn evenlight_points::PointSet>>(
+    py: Python<'_>,
+    (sets, workers): (u64, NonZeroUsize),
+    set: impl Fn(u64) -> S + Sync,
+    rows: Range<u64>,
+    out: &Bound<'_, PyUntypedArray>,
+) -> PyResult<()> {
+    let size = (out.len() / sets.max(1) as usize).max(1);
+    if let Ok(mut array) = out.extract::<PyReadwriteArrayDyn<'_, f64>>() {
+        let parts = array.as_slice_mut()?.chunks_mut(size);
+        py.detach(|| {
+            parts.zip(0..).for_each(|(part, r)| fill_parallel(set(r).borrow(), rows.clone(), part, workers));
+        });
+    } else if let Ok(mut array) = out.extract::<PyReadwriteArrayDyn<'_, f32>>() {
+        let parts = array.as_slice_mut()?.chunks_mut(size);
+        py.detach(|| {
+            parts
+                .zip(0..)
+                .for_each(|(part, r)| fill_parallel_f32(set(r).borrow(), rows.clone(), part, workers));
+        });
+    } else {
+        let message = format!("out must be a writable array of float64 or float32, not {}", out.dtype());
+        return Err(PyTypeError::new_err(message));
+    }
+    Ok(())
 }
 
 /// The seed of an independent repetition.
@@ -79,12 +155,15 @@ fn replicate_seed(seed: u64, replicate: u64) -> u64 {
     Seed::new(seed).replicate(replicate).bits64()
 }
 
-/// (name, citation, accepted scrambles, most dimensions) of every sequence.
+/// What a sequence says of itself: name, citation, accepted scrambles, options, most dimensions.
+type Line = (&'static str, &'static str, Vec<&'static str>, Vec<&'static str>, usize);
+
+/// All sequences.
 #[pyfunction]
-fn available_sequences() -> Vec<(&'static str, &'static str, Vec<&'static str>, usize)> {
+fn available_sequences() -> Vec<Line> {
     let line = |entry: &&sequences::Entry| {
-        let scrambles = entry.accepts.iter().map(|scramble| scramble.name()).collect();
-        (entry.name, entry.cite, scrambles, entry.most_dims)
+        let scrambles = entry.accepts.iter().map(|randomization| randomization.name()).collect();
+        (entry.name, entry.cite, scrambles, entry.takes.to_vec(), entry.most_dims)
     };
     sequences::ALL.iter().map(line).collect()
 }

@@ -4,7 +4,7 @@
 `scipy.stats.qmc.QMCEngine` and have random access besides: ``Sobol(3, seed=7).points(1000, 2000)``.
 """
 
-from typing import NamedTuple, SupportsIndex
+from typing import Any, NamedTuple, SupportsIndex
 
 from evenlight import _core
 
@@ -15,9 +15,7 @@ from .sobol import Sobol
 
 __all__ = ["SEQUENCES", "Engine", "Halton", "Independent", "SequenceInfo", "Sobol", "available", "build"]
 
-SEQUENCES: dict[str, type[Sobol | Halton | Independent]] = {
-    sequence.sequence: sequence for sequence in (Sobol, Halton, Independent)
-}
+SEQUENCES: dict[str, type[Engine]] = {sequence.sequence: sequence for sequence in (Sobol, Halton, Independent)}
 """The classes by their names in the registry."""
 
 
@@ -30,6 +28,8 @@ class SequenceInfo(NamedTuple):
     """Where it was published."""
     scrambles: tuple[str, ...]
     """The scrambles it takes, its default first."""
+    options: tuple[str, ...]
+    """The options it takes."""
     most_dims: int
     """The most dimensions it has."""
 
@@ -40,21 +40,21 @@ def available() -> tuple[SequenceInfo, ...]:
     Returns
     -------
     tuple of SequenceInfo
-        Name, citation, accepted scrambles (default first) and most dimensions of each.
+        Name, citation, accepted scrambles (default first), options and most dimensions of each.
 
     Examples
     --------
     >>> from evenlight import points
-    >>> [info.name for info in points.available()]
+    >>> [info.name for info in points.available()][:3]
     ['sobol', 'halton', 'independent']
     """
     return tuple(
-        SequenceInfo(name, cite, tuple(scrambles), most_dims)
-        for name, cite, scrambles, most_dims in _core.available_sequences()
+        SequenceInfo(name, cite, tuple(scrambles), tuple(options), most_dims)
+        for name, cite, scrambles, options, most_dims in _core.available_sequences()
     )
 
 
-def build(name: str, d: SupportsIndex, *, scramble: str | None = None, seed: SeedLike = None) -> Engine:
+def build(name: str, d: SupportsIndex, *, scramble: str | None = None, seed: SeedLike = None, **options: Any) -> Engine:
     """Build a sequence from plain values, such as those of a settings file.
 
     Parameters
@@ -67,11 +67,13 @@ def build(name: str, d: SupportsIndex, *, scramble: str | None = None, seed: See
         One that the sequence takes; its first by default.
     seed : int or numpy.random.Generator, optional
         The same number always gives the same bits; 0 by default.
+    **options
+        What the sequence asks besides, such as the number of points `n` of a finite set.
 
     Returns
     -------
     Engine
-        A `Sobol`, `Halton` or `Independent`.
+        One of the classes in `SEQUENCES`.
 
     Raises
     ------
@@ -84,11 +86,17 @@ def build(name: str, d: SupportsIndex, *, scramble: str | None = None, seed: See
     >>> points.build("halton", 2, seed=3)
     Halton(2, scramble='owen', seed=3)
     """
-    if name not in SEQUENCES:
-        raise ValueError(f"unknown sequence {name!r}; known: {', '.join(SEQUENCES)}")
-    sequence = SEQUENCES[name]
-    if issubclass(sequence, Independent):
-        if scramble not in (None, "none"):
-            raise ValueError(f"sequence 'independent' does not accept scramble {scramble!r}; accepted: none")
-        return sequence(d, seed=seed)
-    return sequence(d, seed=seed) if scramble is None else sequence(d, scramble=scramble, seed=seed)
+    infos = {info.name: info for info in available()}
+    if name not in infos:
+        raise ValueError(f"unknown sequence {name!r}; known: {', '.join(infos)}")
+    info = infos[name]
+    for option in options:
+        if option not in info.options:
+            known = ", ".join(info.options) or "none"
+            raise ValueError(f"sequence {name!r} has no option {option!r}; it has: {known}")
+    if scramble is not None and scramble not in info.scrambles:
+        accepted = ", ".join(info.scrambles)
+        raise ValueError(f"sequence {name!r} does not accept scramble {scramble!r}; accepted: {accepted}")
+    # a sequence with a single scramble has no such argument
+    chosen: dict[str, Any] = {} if scramble is None or len(info.scrambles) == 1 else {"scramble": scramble}
+    return SEQUENCES[name](d, seed=seed, **chosen, **options)

@@ -2,7 +2,8 @@
 
 import operator
 import os
-from typing import Any, ClassVar, Self, SupportsIndex, TypeAlias, TypeVar, overload
+import warnings
+from typing import Any, ClassVar, Literal, Self, SupportsIndex, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +14,8 @@ from evenlight import _core
 __all__ = ["Engine", "SeedLike"]
 
 SeedLike: TypeAlias = SupportsIndex | np.random.Generator | None
-"""A number from 0 to 2^64 - 1, a generator to draw one from, or None for 0."""
+"""A number from 0 on, a generator to draw one from, or None for 0."""
 
-_Floats = TypeVar("_Floats", npt.NDArray[np.float64], npt.NDArray[np.float32])
 _INDICES = 2**64
 
 
@@ -29,11 +29,15 @@ class Engine(qmc.QMCEngine):
     ----------
     d : int
         The number of coordinates of a point.
-    scramble : str
-        The randomization of the digits.
+    scramble : str or bool
+        The randomization; as in SciPy, True for the default and False for "none".
     seed, rng : int or numpy.random.Generator, optional
         Two names for the same thing; give at most one. The same number always gives the same bits, on
-        every machine; 0 by default. From a generator, one number is drawn.
+        every machine; 0 by default. Numbers from 2^64 on are hashed. From a generator, one number is drawn.
+    optimization : {None, "random-cd", "lloyd"}, optional
+        What SciPy's engines offer: a post-processing of what `random` draws. It destroys the structure of nets.
+    **options
+        What only some sequences ask, in plain values; None leaves the choice to the sequence.
 
     Raises
     ------
@@ -46,58 +50,79 @@ class Engine(qmc.QMCEngine):
     sequence: ClassVar[str]
     """The name in the registry, the same as in Rust, on the command line and in reports."""
 
-    def __init__(self, d: SupportsIndex, *, scramble: str, seed: SeedLike = None, rng: SeedLike = None) -> None:
+    finite: ClassVar[bool] = False
+    """Whether the number of points must be known, as the option `n` or from the first call of `random`."""
+
+    def __init__(
+        self,
+        d: SupportsIndex,
+        *,
+        scramble: str | bool = True,
+        seed: SeedLike = None,
+        rng: SeedLike = None,
+        optimization: Literal["random-cd", "lloyd"] | None = None,
+        **options: Any,
+    ) -> None:
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names for the same argument; give one of them")
-        dims = _integer("d", d, 1)
+        dims = _integer("d", d, 0)
         self.seed = _seed(rng if seed is None else seed)
-        self.scramble = scramble
+        self.scramble = self._scramble(scramble)
+        self._options: dict[str, Any] = {
+            name: _plain(name, value) for name, value in options.items() if value is not None
+        }
         self._core = self._build(dims)
-        super().__init__(dims)
+        self._warned = False
+        super().__init__(dims, optimization=optimization, rng=self.seed)
         # `scipy.integrate.qmc_quad` builds its replicates from these two.
         self._init_quad = self._spec()
         self.rng = np.random.default_rng(self.seed)
 
-    @overload
-    def points(
-        self, start: SupportsIndex, stop: SupportsIndex, out: None = None, *, workers: SupportsIndex = 1
-    ) -> npt.NDArray[np.float64]: ...
-    @overload
-    def points(
-        self, start: SupportsIndex, stop: SupportsIndex, out: _Floats, *, workers: SupportsIndex = 1
-    ) -> _Floats: ...
+    @property
+    def n(self) -> int | None:
+        """The number of points there are; None if there is no end to them, or it is not known yet."""
+        return None if self._core is None else self._core.count
+
     def points(
         self,
         start: SupportsIndex,
         stop: SupportsIndex,
-        out: npt.NDArray[np.float64] | npt.NDArray[np.float32] | None = None,
+        out: Any = None,
         *,
+        replicates: SupportsIndex | None = None,
+        xp: Any = None,
         workers: SupportsIndex = 1,
-    ) -> npt.NDArray[np.float64] | npt.NDArray[np.float32]:
+    ) -> Any:
         """Rows `start` to `stop`, the latter not included, whatever was drawn before.
 
         Parameters
         ----------
         start, stop : int
-            0 <= start <= stop < 2^64.
-        out : ndarray of float64 or float32, shape (stop - start, d), optional
-            C-contiguous array to write to, which spares a new large one its page faults. In single
-            precision, the numbers are truncated.
+            0 <= start <= stop < 2^64, and `stop` at most `n` where there is an end.
+        out : array of float64 or float32, shape (stop - start, d), optional
+            C-contiguous array to write to, which spares a new large one its page faults; with `replicates`, of
+            shape (replicates, stop - start, d). NumPy's, or any other in memory that exports DLPack, such as a
+            PyTorch tensor. In single precision, the numbers are truncated.
+        replicates : int, optional
+            Write this many independent randomizations: number r has the bits of ``replicate(r).points(start, stop)``.
+        xp : module, optional
+            The array library of the result, such as `torch` or `jax.numpy`, by way of its `from_dlpack`; NumPy by
+            default.
         workers : int, optional
             The most threads to use, -1 for all processors. The numbers do not depend on it.
 
         Returns
         -------
-        ndarray, shape (stop - start, d)
-            Numbers in [0, 1), never 1: `out`, or a new array of float64.
+        array of float64, shape (stop - start, d) or (replicates, stop - start, d)
+            Numbers in [0, 1), never 1: `out`, or a new array.
 
         Raises
         ------
         TypeError
-            If `out` is not a writable array of float64 or float32.
+            If `out` is not a writable array of float64 or float32, or both `out` and `xp` are given.
         ValueError
-            If the range is not as above, `workers` is neither -1 nor at least 1, or `out` has another
-            shape or is not C-contiguous.
+            If the range is not as above, `workers` is neither -1 nor at least 1, `out` has another shape or is not
+            C-contiguous, or there is nothing random to replicate.
 
         Examples
         --------
@@ -105,16 +130,42 @@ class Engine(qmc.QMCEngine):
         >>> Sobol(2, scramble="none").points(2, 4)
         array([[0.25, 0.75],
                [0.75, 0.25]])
+        >>> Sobol(2, seed=7).points(0, 8, replicates=3).shape
+        (3, 8, 2)
         """
+        first, last = self._rows(start, stop)
+        threads = _threads(workers)
+        shape: tuple[int, ...] = (last - first, int(self.d))
+        if replicates is not None:
+            shape = (self._replicates(replicates), *shape)
+        if out is not None and xp is not None:
+            raise TypeError("out and xp both say where the points go; give one of them")
+        array = np.empty(shape) if out is None else _writable(out)
+        if self.d == 0:
+            pass  # as in SciPy, points of no coordinates exist
+        elif replicates is None:
+            self._core.fill(first, last, array, threads)
+        else:
+            self._core.fill_replicates(self.seed, (first, last), shape[0], array, threads)
+        if out is not None:
+            return out
+        return array if xp is None or xp is np else xp.from_dlpack(array)
+
+    def _rows(self, start: SupportsIndex, stop: SupportsIndex) -> tuple[int, int]:
         first, last = _integer("start", start, 0), _integer("stop", stop, 0)
         if not first <= last < _INDICES:
             raise ValueError(f"rows {first} to {last}: 0 <= start <= stop < 2^64 is needed")
-        if out is None:
-            out = np.empty((last - first, self.d))
-        elif not isinstance(out, np.ndarray):
-            raise TypeError(f"out must be a numpy array, not {type(out).__name__}")
-        self._core.fill(first, last, out, _threads(workers))
-        return out
+        if self._core is None and self.d > 0:
+            raise ValueError(f"{self!r} must know its number of points: {type(self).__name__}({self.d}, n=...)")
+        if self.n is not None and last > self.n:
+            raise ValueError(f"rows {first} to {last}: {self!r} has {self.n} points")
+        return first, last
+
+    def _replicates(self, replicates: SupportsIndex) -> int:
+        number = _integer("replicates", replicates, 1)
+        if not self.is_random:
+            raise ValueError(f"{self!r} has no randomness to replicate; choose a scramble other than 'none'")
+        return number
 
     @property
     def is_random(self) -> bool:
@@ -148,8 +199,7 @@ class Engine(qmc.QMCEngine):
         True
         """
         number = _integer("r", r, 0)
-        if not self.is_random:
-            raise ValueError(f"{self!r} has no randomness to replicate; choose a scramble other than 'none'")
+        self._replicates(1)
         return type(self)(**self._spec(), seed=_core.replicate_seed(self.seed, number))
 
     def fast_forward(self, n: SupportsIndex) -> Self:  # type: ignore[override]  # any integer will do
@@ -199,16 +249,48 @@ class Engine(qmc.QMCEngine):
     ) -> npt.NDArray[np.float64]:
         del workers  # SciPy's own engines take it; here one core outruns the memory
         rows = _integer("n", n, 0)
-        return self.points(self.num_generated, self.num_generated + rows)
+        if rows == 0 or self.d == 0:
+            return np.empty((rows, self.d))
+        if self._core is None:
+            self._options["n"] = self.num_generated + rows
+            self._core = self._build(int(self.d))
+        self._warn_of_imbalance(rows)
+        drawn: npt.NDArray[np.float64] = self.points(self.num_generated, self.num_generated + rows)
+        return drawn
 
-    def _build(self, dims: int) -> _core.PointSet:
-        if not isinstance(self.scramble, str):
-            raise TypeError(f"scramble must be a string, not {type(self.scramble).__name__}")
-        return _core.PointSet(self.sequence, dims, self.scramble, self.seed)
+    def _warn_of_imbalance(self, rows: int) -> None:
+        base = self._core.base
+        if base is None or self.num_generated > 0 or self._warned:
+            return
+        lower = 1
+        while lower * base <= rows:
+            lower *= base
+        if lower != rows:
+            self._warned = True
+            warnings.warn(
+                f"{type(self).__name__} points are balanced in powers of {base}: "
+                f"take n = {lower * base} or {lower}, not {rows}",
+                UserWarning,
+                stacklevel=4,
+            )
+
+    def _scramble(self, scramble: str | bool) -> str:
+        if scramble is True:
+            return next(scrambles[0] for name, _, scrambles, *_ in _core.available_sequences() if name == self.sequence)
+        if scramble is False:
+            return "none"
+        if not isinstance(scramble, str):
+            raise TypeError(f"scramble must be a string, not {type(scramble).__name__}")
+        return scramble
+
+    def _build(self, dims: int) -> Any:
+        if dims == 0 or (self.finite and "n" not in self._options):
+            return None
+        return _core.PointSet(self.sequence, dims, self.scramble, self.seed, **self._options)
 
     def _spec(self) -> dict[str, Any]:
         """Return the arguments of the constructor, without the seed."""
-        return {"d": self.d, "scramble": self.scramble}
+        return {"d": self.d, "scramble": self.scramble, **self._options}
 
 
 def _integer(name: str, value: SupportsIndex, least: int) -> int:
@@ -228,12 +310,28 @@ def _threads(workers: SupportsIndex) -> int:
     return number if number > 0 else os.cpu_count() or 1
 
 
+def _plain(name: str, value: Any) -> int | list[int]:
+    """Turn an option into the plain value it stands for: an integer, or a list of integers."""
+    if np.iterable(value) and not isinstance(value, str):
+        return [_integer(name, number, 0) for number in value]
+    return _integer(name, value, 0)
+
+
+def _writable(out: Any) -> npt.NDArray[Any]:
+    if isinstance(out, np.ndarray):
+        return out
+    if not hasattr(out, "__dlpack__"):
+        raise TypeError(f"out must be a numpy array or export DLPack, not {type(out).__name__}")
+    array: npt.NDArray[Any] = np.from_dlpack(out)
+    if not array.flags.writeable:
+        raise TypeError(f"out must be writable; {type(out).__name__} exports itself as read-only")
+    return array
+
+
 def _seed(seed: SeedLike) -> int:
     if seed is None:
         return 0
     if isinstance(seed, np.random.Generator):
         return int(seed.integers(_INDICES, dtype=np.uint64))
     number = _integer("seed", seed, 0)
-    if number >= _INDICES:
-        raise ValueError(f"seed must be below 2^64, not {number}")
-    return number
+    return number if number < _INDICES else int(np.random.SeedSequence(number).generate_state(1, np.uint64)[0])

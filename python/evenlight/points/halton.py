@@ -1,8 +1,6 @@
 """Halton points: for numbers of points that are not powers of 2."""
 
-from typing import SupportsIndex
-
-from .engine import Engine, SeedLike
+from .engine import Engine
 
 __all__ = ["Halton"]
 
@@ -44,8 +42,3 @@ class Halton(Engine):
     """
 
     sequence = "halton"
-
-    def __init__(
-        self, d: SupportsIndex, *, scramble: str = "owen", seed: SeedLike = None, rng: SeedLike = None
-    ) -> None:
-        super().__init__(d, scramble=scramble, seed=seed, rng=rng)

@@ -38,8 +38,8 @@ class Independent(Engine):
 
     sequence = "independent"
 
-    def __init__(self, d: SupportsIndex, *, seed: SeedLike = None, rng: SeedLike = None) -> None:
-        super().__init__(d, scramble="none", seed=seed, rng=rng)
+    def __init__(self, d: SupportsIndex, *, seed: SeedLike = None, rng: SeedLike = None, **arguments: Any) -> None:
+        super().__init__(d, **{"scramble": "none", "seed": seed, "rng": rng, **arguments})
 
     @property
     def is_random(self) -> bool:

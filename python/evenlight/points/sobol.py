@@ -1,12 +1,11 @@
 """Sobol' points: the default for integration."""
 
-import warnings
 from typing import SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
-from .engine import Engine, SeedLike
+from .engine import Engine
 
 __all__ = ["Sobol"]
 
@@ -22,9 +21,11 @@ class Sobol(Engine):
     ----------
     d : int
         1 to 21,201.
-    scramble : {"owen", "digital_shift", "none"}
-        "owen": nested uniform scrambling, by hashing. "digital_shift": one random shift of all digits.
-        "none": the construction itself, which begins with the corner 0.
+    scramble : {"owen", "owen_exact", "linear", "linear_striped", "linear_i_binomial", "digital_shift", "shift", "none"}
+        "owen": nested uniform scrambling, by hashing; "owen_exact": with a random bit of its own at every node, ten
+        times slower. "linear": digits times a random lower triangular matrix, and shifted; "linear_striped" and
+        "linear_i_binomial" are special matrices. "digital_shift": one random shift of all digits. "shift": one modulo
+        1, after which the points are no net. "none": the construction itself, which begins with the corner 0.
     seed, rng : int or numpy.random.Generator, optional
         The same number always gives the same bits; 0 by default. Two names, for SciPy's sake.
 
@@ -41,7 +42,7 @@ class Sobol(Engine):
     Notes
     -----
     Measured: 0.6 nanoseconds per coordinate with AVX-512, 2.7 with AVX2; setting up takes 70
-    microseconds, in 1,024 dimensions 0.6 milliseconds.
+    microseconds, in 1,024 dimensions 0.6 milliseconds. "linear" and "digital_shift" take 0.2, "owen_exact" 12.
 
     References: I. M. Sobol', USSR Comput. Math. Math. Phys. 7(4), 86-112 (1967); S. Joe and
     F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635-2654 (2008); A. B. Owen, *Randomly permuted (t,m,s)-nets and
@@ -58,12 +59,6 @@ class Sobol(Engine):
     """
 
     sequence = "sobol"
-    _warned = False
-
-    def __init__(
-        self, d: SupportsIndex, *, scramble: str = "owen", seed: SeedLike = None, rng: SeedLike = None
-    ) -> None:
-        super().__init__(d, scramble=scramble, seed=seed, rng=rng)
 
     def random_base2(self, m: SupportsIndex) -> npt.NDArray[np.float64]:
         """Draw the next 2^m rows.
@@ -91,18 +86,3 @@ class Sobol(Engine):
                 "power of 2. `random` draws any number"
             )
         return self.random(n)
-
-    def _random(  # type: ignore[override]  # any integer will do
-        self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1
-    ) -> npt.NDArray[np.float64]:
-        rows = super()._random(n, workers=workers)
-        count = len(rows)
-        if count & (count - 1) and self.num_generated == 0 and not self._warned:
-            self._warned = True
-            upper = 1 << count.bit_length()
-            warnings.warn(
-                f"Sobol' points are balanced in powers of 2: take n = {upper} or {upper // 2}, not {count}",
-                UserWarning,
-                stacklevel=3,
-            )
-        return rows

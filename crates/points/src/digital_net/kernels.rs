@@ -4,6 +4,7 @@
 
 use crate::convert::{Digits, Unit};
 use crate::instruction_sets::for_this_machine;
+use crate::scramble::owen_exact::exact_scrambles;
 use crate::streaming::{LANES, Lanes, Stream, store};
 
 /// What is combined with the words of a tile: the offsets and keys of some whole rows, over and over.
@@ -39,6 +40,42 @@ for_this_machine! {
     owen_past = past_caches_owen<T: Unit, VECTOR>(
         tile: &[T::Digits], period: Period<'_, T::Digits>, out: &mut Stream<'_, T>)
 }
+
+for_this_machine! {
+    /// Points scrambled node by node: words of a tile, offsets of at least a row, one key for each coordinate.
+    owen_exact = owen_exact_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T])
+}
+
+for_this_machine! {
+    /// Points shifted modulo 1; arguments as in [`owen_exact`].
+    added = added_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T])
+}
+
+#[inline(always)]
+fn owen_exact_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]) {
+    let mut row = offsets.iter().zip(keys).cycle();
+    for (tile, out) in tile.chunks(WORDS).zip(out.chunks_mut(WORDS)) {
+        let (mut words, mut word_keys) = ([0; WORDS], [0; WORDS]);
+        let places = words.iter_mut().zip(&mut word_keys).zip(tile).take(out.len());
+        for (((word, word_key), tile), (offset, key)) in places.zip(&mut row) {
+            (*word, *word_key) = (tile ^ offset, *key);
+        }
+        exact_scrambles(&mut words, &word_keys);
+        out.iter_mut().zip(words).for_each(|(x, word)| *x = T::from_word(word));
+    }
+}
+
+#[inline(always)]
+fn added_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]) {
+    for (tile, out) in tile.chunks(keys.len()).zip(out.chunks_mut(keys.len())) {
+        for (((x, word), offset), &key) in out.iter_mut().zip(tile).zip(offsets).zip(keys) {
+            *x = T::from_word((word ^ offset).wrapping_add(key));
+        }
+    }
+}
+
+/// Words that are scrambled node by node at a time.
+const WORDS: usize = 32;
 
 #[inline(always)]
 fn into_caches<T: Unit>(tile: &[T::Digits], period: Period<'_, T::Digits>, out: &mut [T]) {

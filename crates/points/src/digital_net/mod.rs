@@ -10,24 +10,29 @@ mod kernels;
 mod tables;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use self::tables::Tables;
 use crate::convert::{Unit, unit_f64};
 use crate::point_set::check_length;
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 use crate::streaming::{self, LANES, Stream};
 use crate::{PointSet, Seed};
 
 /// The digits of a coordinate, and of an index.
 pub const BITS: usize = 64;
 
-/// A base-2 digital net, scrambled.
+/// A base-2 digital net, randomized.
 #[derive(Debug)]
 pub struct DigitalNet {
     dims: usize,
-    scramble: Scrambling,
-    /// Column k of the matrix of coordinate j at `k * dims + j`.
-    columns: Vec<u64>,
+    randomization: Randomization,
+    /// Column k of the matrix of coordinate j at `k * dims + j`, before any randomization.
+    plain: Arc<[u64]>,
+    /// The same with the linear part of an affine randomization built in.
+    columns: Arc<[u64]>,
+    /// The words of index 0: the shift of an affine randomization.
+    origin: Vec<u64>,
     /// One key for each coordinate.
     keys: Vec<Seed>,
 }
@@ -37,15 +42,23 @@ impl DigitalNet {
     ///
     /// # Panics
     /// If there are no matrices.
-    pub fn new(matrices: &[[u64; BITS]], scramble: Scrambling, seed: Seed) -> Self {
-        let dims = matrices.len();
-        assert!(dims > 0, "a net has at least one coordinate");
+    pub fn new(matrices: &[[u64; BITS]], randomization: Randomization, seed: Seed) -> Self {
+        assert!(!matrices.is_empty(), "a net has at least one coordinate");
         let columns = (0..BITS).flat_map(|k| matrices.iter().map(move |matrix| matrix[k])).collect();
-        let keys: Vec<_> = (0..dims as u64).map(|dim| seed.dimension(dim)).collect();
-        Self { dims, scramble, columns, keys }
+        Self::randomized(columns, matrices.len(), randomization, seed)
     }
 
-    /// The digits of a coordinate before scrambling.
+    fn randomized(plain: Arc<[u64]>, dims: usize, randomization: Randomization, seed: Seed) -> Self {
+        let keys: Vec<_> = (0..dims as u64).map(|dim| seed.dimension(dim)).collect();
+        let (columns, origin) = if randomization.entry().affine {
+            built_in(&plain, &keys, randomization.entry().apply)
+        } else {
+            (plain.clone(), vec![0; dims])
+        };
+        Self { dims, randomization, plain, columns, origin, keys }
+    }
+
+    /// The digits of a coordinate before randomization.
     ///
     /// # Panics
     /// If there is no such coordinate.
@@ -53,18 +66,15 @@ impl DigitalNet {
         assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
         let mut word = 0;
         while index != 0 {
-            word ^= self.columns[index.trailing_zeros() as usize * self.dims + dim];
+            word ^= self.plain[index.trailing_zeros() as usize * self.dims + dim];
             index &= index - 1;
         }
         word
     }
 
-    /// The words of a row: shifted, but not Owen-scrambled.
+    /// The words of a row, with no other than an affine randomization.
     fn row(&self, mut index: u64) -> Vec<u64> {
-        let mut row: Vec<_> = match self.scramble {
-            Scrambling::DigitalShift => self.keys.iter().map(|key| key.bits64()).collect(),
-            Scrambling::None | Scrambling::Owen => vec![0; self.dims],
-        };
+        let mut row = self.origin.clone();
         while index != 0 {
             let column = self.column(index.trailing_zeros());
             row.iter_mut().zip(column).for_each(|(word, column)| *word ^= column);
@@ -84,8 +94,13 @@ impl DigitalNet {
         if out.is_empty() {
             return;
         }
+        match self.randomization {
+            Randomization::OwenExact => return self.fill_by_word(rows, out, kernels::owen_exact),
+            Randomization::Shift => return self.fill_by_word(rows, out, kernels::added),
+            _ => {}
+        }
         let tables = Tables::<T::Digits>::new(self, &rows);
-        let owen = self.scramble == Scrambling::Owen;
+        let owen = self.randomization == Randomization::Owen;
         if streaming::pays(out) {
             let kernel = if owen { kernels::owen_past } else { kernels::shifted_past };
             let mut out = Stream::new(out);
@@ -101,6 +116,31 @@ impl DigitalNet {
             });
         }
     }
+
+    /// The randomizations that take all digits of a word, whatever the precision of the result.
+    fn fill_by_word<T: Unit>(&self, rows: Range<u64>, out: &mut [T], kernel: WordKernel<T>) {
+        let keys: Vec<_> = self.keys.iter().map(|key| key.bits64()).collect();
+        let mut rest = out;
+        Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
+            let words = (tile.len() - LANES).min(rest.len());
+            let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
+            kernel(tile, period.offsets, &keys, part);
+            rest = later;
+        });
+    }
+}
+
+/// Makes numbers from the words of a tile, the offsets of a row and the keys of the coordinates.
+type WordKernel<T> = fn(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]);
+
+/// Columns with the linear part of an affine randomization applied, and its shifts.
+fn built_in(plain: &[u64], keys: &[Seed], apply: fn(u64, Seed) -> u64) -> (Arc<[u64]>, Vec<u64>) {
+    let origin: Vec<_> = keys.iter().map(|&key| apply(0, key)).collect();
+    let rows = plain.chunks_exact(keys.len());
+    let columns = rows.flat_map(|row| {
+        row.iter().zip(keys).zip(&origin).map(|((&word, &key), shift)| apply(word, key) ^ shift)
+    });
+    (columns.collect(), origin)
 }
 
 impl PointSet for DigitalNet {
@@ -109,7 +149,15 @@ impl PointSet for DigitalNet {
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {
-        unit_f64((self.scramble.entry().apply)(self.word(index, dim), self.keys[dim]))
+        unit_f64((self.randomization.entry().apply)(self.word(index, dim), self.keys[dim]))
+    }
+
+    fn base(&self) -> Option<u64> {
+        Some(2)
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::randomized(self.plain.clone(), self.dims, self.randomization, seed))
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::DigitalNet;
 use super::kernels::Period;
 use crate::convert::Digits;
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 use crate::streaming::LANES;
 
 /// Words of a tile: at most half of a first-level cache.
@@ -42,7 +42,7 @@ impl<'a, D: Digits> Tables<'a, D> {
         let mut tables = Self { net, tile: vec![], tile_bits, period, steps: vec![], keys: [vec![], vec![]] };
         tables.tile = tables.first_rows();
         tables.steps = tables.steps_within(changing);
-        if net.scramble == Scrambling::Owen {
+        if net.randomization == Randomization::Owen {
             let (addends, factors): (Vec<D>, Vec<D>) =
                 net.keys.iter().map(|key| D::owen_key(key.bits64())).unzip();
             tables.keys = [tables.repeated(&addends), tables.repeated(&factors)];
@@ -72,7 +72,7 @@ impl<'a, D: Digits> Tables<'a, D> {
 
     /// The Owen hash works on reversed words; reversing the tables saves doing it for each point.
     fn kernel_row(&self, row: &[u64]) -> Vec<D> {
-        let owen = self.net.scramble == Scrambling::Owen;
+        let owen = self.net.randomization == Randomization::Owen;
         let form = |&word: &u64| if owen { D::leading(word).reversed() } else { D::leading(word) };
         row.iter().map(form).collect()
     }

@@ -4,12 +4,14 @@
 //! single exclusive-or per coordinate is all there is time for. The points stay as regular among
 //! themselves as they were: for f(x) = x the variance is 1/(12 n²), against 1/(12 n³) for `owen`.
 
-use super::{Entry, Scrambling};
+use super::{Entry, Randomization};
 
 pub(super) const ENTRY: Entry = Entry {
-    scramble: Scrambling::DigitalShift,
+    randomization: Randomization::DigitalShift,
     name: "digital_shift",
     cite: "P. L'Ecuyer and C. Lemieux, Recent advances in randomized quasi-Monte Carlo methods, in Modeling \
            Uncertainty, Kluwer (2002)",
     apply: |word, key| word ^ key.bits64(),
+    affine: true,
+    nested: true,
 };

@@ -11,32 +11,33 @@ use super::Entry;
 use crate::convert::unit_f64;
 use crate::point_set::check_length;
 use crate::radical_inverse::{BLOCK, RadicalInverse};
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 use crate::{PointSet, Seed};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "halton",
     cite: "J. H. Halton, Numer. Math. 2, 84-90 (1960), scrambled as in A. B. Owen, LNS 106, 299-317 (1995) and \
            J. Matousek, J. Complexity 14, 527-556 (1998)",
-    accepts: &[Scrambling::Owen, Scrambling::None],
+    accepts: &[Randomization::Owen, Randomization::None],
+    takes: &[],
     most_dims: 6_542, // the primes below 2^16, whose products fit 32 bits
-    build: |dims, scramble, seed| Box::new(Halton::new(dims, scramble, seed)),
+    build: |spec| Ok(Box::new(Halton::new(spec.dims, spec.randomization, spec.seed))),
 };
 
 /// The Halton sequence.
 #[derive(Debug)]
 pub struct Halton {
     axes: Vec<RadicalInverse>,
-    scramble: Scrambling,
+    randomization: Randomization,
 }
 
 impl Halton {
-    /// The Halton sequence of the first `dims` primes, with `Scrambling::Owen` or `Scrambling::None`.
-    pub fn new(dims: usize, scramble: Scrambling, seed: Seed) -> Self {
+    /// The Halton sequence of the first `dims` primes, with `Randomization::Owen` or `Randomization::None`.
+    pub fn new(dims: usize, randomization: Randomization, seed: Seed) -> Self {
         let keyed = primes(dims).into_iter().zip(0..);
         Self {
             axes: keyed.map(|(base, dim)| RadicalInverse::new(base, seed.dimension(dim))).collect(),
-            scramble,
+            randomization,
         }
     }
 }
@@ -46,9 +47,17 @@ impl PointSet for Halton {
         self.axes.len()
     }
 
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.axes.len(), self.randomization, seed))
+    }
+
     fn coord(&self, index: u64, dim: usize) -> f64 {
         let axis = &self.axes[dim];
-        unit_f64(if self.scramble == Scrambling::Owen { axis.scrambled(index) } else { axis.plain(index) })
+        unit_f64(if self.randomization == Randomization::Owen {
+            axis.scrambled(index)
+        } else {
+            axis.plain(index)
+        })
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
@@ -56,7 +65,7 @@ impl PointSet for Halton {
         let mut words = [0; BLOCK];
         for (start, part) in rows.step_by(BLOCK).zip(out.chunks_mut(BLOCK * self.dims())) {
             for (dim, axis) in self.axes.iter().enumerate() {
-                if self.scramble == Scrambling::Owen {
+                if self.randomization == Randomization::Owen {
                     axis.scrambled_block(start, &mut words);
                 } else {
                     (0..).zip(&mut words).for_each(|(i, word)| *word = axis.plain(start.wrapping_add(i)));

@@ -9,7 +9,7 @@ use super::Entry;
 use crate::convert::{Unit, unit_f64};
 use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 use crate::seed::mix;
 use crate::{PointSet, Seed};
 
@@ -17,9 +17,10 @@ pub(super) const ENTRY: Entry = Entry {
     name: "independent",
     cite: "J. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC'11 (2011), with the hash of G. Steele, \
            D. Lea and C. Flood, Fast splittable pseudorandom number generators, OOPSLA (2014)",
-    accepts: &[Scrambling::None],
+    accepts: &[Randomization::None],
+    takes: &[],
     most_dims: 1 << 24,
-    build: |dims, _, seed| Box::new(Independent::new(dims, seed)),
+    build: |spec| Ok(Box::new(Independent::new(spec.dims, spec.seed))),
 };
 
 /// Coordinates that are made in one go at least, so that vector loops are long even if d is 1.
@@ -60,6 +61,10 @@ impl Independent {
 impl PointSet for Independent {
     fn dims(&self) -> usize {
         self.dims
+    }
+
+    fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
+        Box::new(Self::new(self.dims, seed))
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {

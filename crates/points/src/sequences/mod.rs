@@ -7,7 +7,7 @@ pub mod halton;
 pub mod independent;
 pub mod sobol;
 
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 use crate::{Error, PointSet, Seed};
 
 /// What a sequence says about itself.
@@ -17,30 +17,93 @@ pub struct Entry {
     pub name: &'static str,
     /// Where it was published.
     pub cite: &'static str,
-    /// The scrambles it takes.
-    pub accepts: &'static [Scrambling],
+    /// The randomizations it takes, its default first.
+    pub accepts: &'static [Randomization],
+    /// The options it takes, by their names in [`Options`].
+    pub takes: &'static [&'static str],
     /// The most dimensions it has.
     pub most_dims: usize,
-    /// Builds it, once [`build`] has checked the arguments.
-    pub build: fn(dims: usize, scramble: Scrambling, seed: Seed) -> Box<dyn PointSet>,
+    /// Builds it, once [`build`] has checked what the registry can check.
+    pub build: fn(&Spec) -> Result<Box<dyn PointSet>, Error>,
+}
+
+/// A request for points, in plain values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spec {
+    /// The number of coordinates of a point.
+    pub dims: usize,
+    /// How it is randomized.
+    pub randomization: Randomization,
+    /// The source of all randomness.
+    pub seed: Seed,
+    /// What only some sequences ask.
+    pub options: Options,
+}
+
+impl Spec {
+    /// A request without options.
+    pub fn new(dims: usize, randomization: Randomization, seed: Seed) -> Self {
+        Self { dims, randomization, seed, options: Options::default() }
+    }
+}
+
+/// Settings that only some sequences have; `None` leaves the choice to the sequence.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// The number of points, for sets that must know it.
+    pub n: Option<u64>,
+    /// The base of the digits.
+    pub base: Option<u32>,
+    /// The order of a higher-order net: how many coordinates are interlaced to one.
+    pub order: Option<u32>,
+    /// The strength of an orthogonal array.
+    pub strength: Option<u32>,
+    /// The generator of a lattice, one number or one for each dimension.
+    pub generator: Option<Vec<u64>>,
+}
+
+impl Options {
+    /// The names of the options that are given.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+        let Self { n, base, order, strength, generator } = self;
+        let all = [
+            ("n", n.is_some()),
+            ("base", base.is_some()),
+            ("order", order.is_some()),
+            ("strength", strength.is_some()),
+            ("generator", generator.is_some()),
+        ];
+        all.into_iter().filter_map(|(name, given)| given.then_some(name))
+    }
 }
 
 /// All sequences.
 pub static ALL: &[&Entry] = &[&sobol::ENTRY, &halton::ENTRY, &independent::ENTRY];
 
+/// The sequence of this name.
+///
+/// # Errors
+/// If there is none; the message lists those there are.
+pub fn named(name: &str) -> Result<&'static Entry, Error> {
+    let entry = ALL.iter().find(|entry| entry.name == name);
+    entry.copied().ok_or_else(|| Error::UnknownSequence(name.into()))
+}
+
 /// Builds a sequence from plain values.
 ///
 /// # Errors
-/// If a name is unknown, the scramble does not suit the sequence, or it has no such number of dimensions.
-pub fn build(name: &str, dims: usize, scramble: &str, seed: Seed) -> Result<Box<dyn PointSet>, Error> {
-    let entry = ALL.iter().find(|entry| entry.name == name);
-    let entry = entry.ok_or_else(|| Error::UnknownSequence(name.into()))?;
-    let scramble = Scrambling::named(scramble)?;
-    if !entry.accepts.contains(&scramble) {
-        return Err(Error::NotAccepted { sequence: entry.name, scramble, accepts: entry.accepts });
+/// If the name is unknown, or the sequence does not take the randomization, an option or the number of dimensions.
+pub fn build(name: &str, spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
+    let entry = named(name)?;
+    let (sequence, &Spec { dims, randomization, .. }) = (entry.name, spec);
+    if !entry.accepts.contains(&randomization) {
+        return Err(Error::NotAccepted { sequence, randomization, accepts: entry.accepts });
+    }
+    if let Some(option) = spec.options.given().find(|option| !entry.takes.contains(option)) {
+        return Err(Error::NotTaken { sequence, option, takes: entry.takes });
     }
     if !(1..=entry.most_dims).contains(&dims) {
-        return Err(Error::Dimensions { sequence: entry.name, asked: dims, most: entry.most_dims });
+        return Err(Error::Dimensions { sequence, asked: dims, most: entry.most_dims });
     }
-    Ok((entry.build)(dims, scramble, seed))
+    (entry.build)(spec)
 }

@@ -9,22 +9,23 @@ use crate::Seed;
 use crate::data::direction_numbers::SOBOL_DIMS;
 pub use crate::data::direction_numbers::direction_numbers;
 use crate::digital_net::DigitalNet;
-use crate::scramble::Scrambling;
+use crate::scramble::Randomization;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sobol",
     cite: "I. M. Sobol', USSR Comput. Math. Math. Phys. 7(4), 86-112 (1967), with the direction numbers of S. Joe and \
            F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635-2654 (2008)",
-    accepts: &[Scrambling::Owen, Scrambling::DigitalShift, Scrambling::None],
+    accepts: Randomization::BASE_2,
+    takes: &[],
     most_dims: SOBOL_DIMS,
-    build: |dims, scramble, seed| Box::new(sobol(dims, scramble, seed)),
+    build: |spec| Ok(Box::new(sobol(spec.dims, spec.randomization, spec.seed))),
 };
 
 /// The first `dims` Sobol' coordinates.
 ///
 /// # Panics
 /// If there are more than 21,201 of them, or none.
-pub fn sobol(dims: usize, scramble: Scrambling, seed: Seed) -> DigitalNet {
+pub fn sobol(dims: usize, randomization: Randomization, seed: Seed) -> DigitalNet {
     let columns: Vec<_> = (0..dims).map(direction_numbers).collect();
-    DigitalNet::new(&columns, scramble, seed)
+    DigitalNet::new(&columns, randomization, seed)
 }
