@@ -17,6 +17,7 @@ from evenlight import _core, points
 # What each crate of ours may use of the others.
 ARROWS: dict[str, set[str]] = {
     "evenlight-points": set(),
+    "evenlight-points-c": {"evenlight-points"},
     "evenlight-render": {"evenlight-points"},
     "evenlight-python": {"evenlight-points", "evenlight-render"},
 }
@@ -79,7 +80,7 @@ def test_crates_use_only_the_crates_they_may(metadata: Any, crate: str) -> None:
     assert everything_below(metadata, crate) & set(ARROWS) <= ARROWS[crate]
 
 
-@pytest.mark.parametrize("crate", ["evenlight-points", "evenlight-render"])
+@pytest.mark.parametrize("crate", ["evenlight-points", "evenlight-points-c", "evenlight-render"])
 def test_the_core_does_not_know_python(metadata: Any, crate: str) -> None:
     assert not everything_below(metadata, crate) & PYTHON_ONLY
 

@@ -14,28 +14,61 @@
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
-//! * [`convert`]: digits to floating point without ever reaching 1.0.
+//! * [`convert`]: digits to floating point without ever reaching 1.0;
+//! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
+//!
+//! Without the default feature `std` there are [`stateless`], [`owen_hash`], [`convert`] and [`Seed`], which need no
+//! operating system.
 
+#![cfg_attr(not(feature = "std"), no_std)]
+
+#[cfg(feature = "std")]
 mod cells;
 pub mod convert;
+#[cfg(feature = "std")]
 mod counts;
 mod data;
+#[cfg(feature = "std")]
 pub mod digital_net;
+#[cfg(feature = "std")]
 mod dyadic_pairs;
+#[cfg(feature = "std")]
 mod error;
+#[cfg(feature = "std")]
 mod instruction_sets;
+#[cfg(feature = "std")]
 pub mod multi_jitter;
+pub mod owen_hash;
+#[cfg(feature = "std")]
 mod parallel;
+#[cfg(feature = "std")]
 mod point_set;
+#[cfg(feature = "std")]
 mod radical_inverse;
+#[cfg(feature = "std")]
 pub mod scramble;
 mod seed;
+#[cfg(feature = "std")]
 pub mod sequences;
+#[cfg(feature = "std")]
 mod shuffle;
+pub mod stateless;
+#[cfg(feature = "std")]
 mod streaming;
+#[cfg(feature = "std")]
 mod tower_field;
+#[cfg(feature = "std")]
+mod unit;
 
+#[cfg(feature = "std")]
 pub use error::Error;
+#[cfg(feature = "std")]
 pub use parallel::{fill_parallel, fill_parallel_f32};
+#[cfg(feature = "std")]
 pub use point_set::PointSet;
 pub use seed::Seed;
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,10 +1,11 @@
 //! The door to the points crate: a point set by name, and arrays to fill.
 use std::borrow::Borrow;
+use std::num::NonZeroUsize;
 use std::ops::Range;
 
 use evenlight_points::scramble::Randomization;
 use evenlight_points::sequences::{self, Options, Spec};
-use evenlight_points::{Error, Seed};
+use evenlight_points::{Error, Seed, fill_parallel, fill_parallel_f32};
 use numpy::{PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -76,11 +77,18 @@ impl PointSet {
         Ok(self.inner.coord(index, dim))
     }
 
-    /// Writes rows `start` to `stop` into a C-contiguous array of float64 or float32.
-    fn fill(&self, py: Python<'_>, start: u64, stop: u64, out: &Bound<'_, PyUntypedArray>) -> PyResult<()> {
+    /// Writes rows `start` to `stop` into a C-contiguous array of float64 or float32, with some threads.
+    fn fill(
+        &self,
+        py: Python<'_>,
+        start: u64,
+        stop: u64,
+        out: &Bound<'_, PyUntypedArray>,
+        workers: NonZeroUsize,
+    ) -> PyResult<()> {
         let rows = (stop.saturating_sub(start)) as usize;
         check(out, &[rows, self.inner.dims()])?;
-        fill(py, 1, |_| &*self.inner, start..stop, out)
+        fill(py, (1, workers), |_| &*self.inner, start..stop, out)
     }
 
     /// Writes the same rows of replicates 0, 1, … of the points with this seed, one after the other.
@@ -91,11 +99,12 @@ impl PointSet {
         rows: (u64, u64),
         replicates: u64,
         out: &Bound<'_, PyUntypedArray>,
+        workers: NonZeroUsize,
     ) -> PyResult<()> {
         let (start, stop) = rows;
         check(out, &[replicates as usize, stop.saturating_sub(start) as usize, self.inner.dims()])?;
         let set = |r| self.inner.reseeded(Seed::new(replicate_seed(seed, r)));
-        fill(py, replicates, set, start..stop, out)
+        fill(py, (replicates, workers), set, start..stop, out)
     }
 }
 
@@ -115,7 +124,7 @@ fn check(out: &Bound<'_, PyUntypedArray>, shape: &[usize]) -> PyResult<()> {
 /// Writes the same rows of some point sets, one set after the other.
 fn fill<S: Borrow<dyn evenlight_points::PointSet>>(
     py: Python<'_>,
-    sets: u64,
+    (sets, workers): (u64, NonZeroUsize),
     set: impl Fn(u64) -> S + Sync,
     rows: Range<u64>,
     out: &Bound<'_, PyUntypedArray>,
@@ -123,10 +132,16 @@ fn fill<S: Borrow<dyn evenlight_points::PointSet>>(
     let size = (out.len() / sets.max(1) as usize).max(1);
     if let Ok(mut array) = out.extract::<PyReadwriteArrayDyn<'_, f64>>() {
         let parts = array.as_slice_mut()?.chunks_mut(size);
-        py.detach(|| parts.zip(0..).for_each(|(part, r)| set(r).borrow().fill(rows.clone(), part)));
+        py.detach(|| {
+            parts.zip(0..).for_each(|(part, r)| fill_parallel(set(r).borrow(), rows.clone(), part, workers));
+        });
     } else if let Ok(mut array) = out.extract::<PyReadwriteArrayDyn<'_, f32>>() {
         let parts = array.as_slice_mut()?.chunks_mut(size);
-        py.detach(|| parts.zip(0..).for_each(|(part, r)| set(r).borrow().fill_f32(rows.clone(), part)));
+        py.detach(|| {
+            parts
+                .zip(0..)
+                .for_each(|(part, r)| fill_parallel_f32(set(r).borrow(), rows.clone(), part, workers));
+        });
     } else {
         let message = format!("out must be a writable array of float64 or float32, not {}", out.dtype());
         return Err(PyTypeError::new_err(message));

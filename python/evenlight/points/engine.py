@@ -1,6 +1,7 @@
 """What all sequences share: rows that are a pure function of their number, behind SciPy's protocol."""
 
 import operator
+import os
 import warnings
 from typing import Any, ClassVar, Literal, Self, SupportsIndex, TypeAlias
 
@@ -90,6 +91,7 @@ class Engine(qmc.QMCEngine):
         *,
         replicates: SupportsIndex | None = None,
         xp: Any = None,
+        workers: SupportsIndex = 1,
     ) -> Any:
         """Rows `start` to `stop`, the latter not included, whatever was drawn before.
 
@@ -106,6 +108,8 @@ class Engine(qmc.QMCEngine):
         xp : module, optional
             The array library of the result, such as `torch` or `jax.numpy`, by way of its `from_dlpack`; NumPy by
             default.
+        workers : int, optional
+            The most threads to use, -1 for all processors. The numbers do not depend on it.
 
         Returns
         -------
@@ -117,8 +121,8 @@ class Engine(qmc.QMCEngine):
         TypeError
             If `out` is not a writable array of float64 or float32, or both `out` and `xp` are given.
         ValueError
-            If the range is not as above, `out` has another shape or is not C-contiguous, or there is
-            nothing random to replicate.
+            If the range is not as above, `workers` is neither -1 nor at least 1, `out` has another shape or is not
+            C-contiguous, or there is nothing random to replicate.
 
         Examples
         --------
@@ -130,6 +134,7 @@ class Engine(qmc.QMCEngine):
         (3, 8, 2)
         """
         first, last = self._rows(start, stop)
+        threads = _threads(workers)
         shape: tuple[int, ...] = (last - first, int(self.d))
         if replicates is not None:
             shape = (self._replicates(replicates), *shape)
@@ -139,9 +144,9 @@ class Engine(qmc.QMCEngine):
         if self.d == 0:
             pass  # as in SciPy, points of no coordinates exist
         elif replicates is None:
-            self._core.fill(first, last, array)
+            self._core.fill(first, last, array, threads)
         else:
-            self._core.fill_replicates(self.seed, (first, last), shape[0], array)
+            self._core.fill_replicates(self.seed, (first, last), shape[0], array, threads)
         if out is not None:
             return out
         return array if xp is None or xp is np else xp.from_dlpack(array)
@@ -296,6 +301,13 @@ def _integer(name: str, value: SupportsIndex, least: int) -> int:
     if number < least:
         raise ValueError(f"{name} must be at least {least}, not {number}")
     return number
+
+
+def _threads(workers: SupportsIndex) -> int:
+    number = _integer("workers", workers, -1)
+    if number == 0:
+        raise ValueError("workers must be at least 1, or -1 for all processors, not 0")
+    return number if number > 0 else os.cpu_count() or 1
 
 
 def _plain(name: str, value: Any) -> int | list[int]:

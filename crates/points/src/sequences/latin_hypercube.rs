@@ -11,13 +11,14 @@ use std::ops::Range;
 
 use super::Entry;
 use crate::cells::Cells;
-use crate::convert::{Unit, unit_f64};
+use crate::convert::unit_f64;
 use crate::counts::counted_points;
 use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
 use crate::seed::counted;
 use crate::shuffle::{self, Shuffle};
+use crate::unit::Unit;
 use crate::{PointSet, Seed};
 
 pub(super) const ENTRY: Entry = Entry {

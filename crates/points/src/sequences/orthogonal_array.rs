@@ -30,7 +30,7 @@ pub(super) const ENTRY: Entry = Entry {
     accepts: &[Randomization::None],
     takes: &["n", "strength"],
     most_dims: 46_338,
-    build: build,
+    build,
 };
 
 /// The largest strength.
@@ -117,7 +117,8 @@ fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
         return Ok(Box::new(OrthogonalArray::new(spec.dims, p, strength, spec.seed)));
     }
     let below = (least..=p).rev().find(|&p| is_prime(p)).and_then(power);
-    let above = (least.max(p + 1)..).find(|&p| is_prime(p)).and_then(power);
+    let next = least.max(p + 1);
+    let above = (next..2 * next).find(|&p| is_prime(p)).and_then(power); // Bertrand: there is one
     let allowed = format!("p^{strength} for a prime p of at least d - 1 = {least}");
     Err(wrong_count(sequence, n, &allowed, [below, above]))
 }

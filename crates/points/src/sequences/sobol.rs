@@ -6,8 +6,9 @@
 
 use super::Entry;
 use crate::Seed;
-use crate::data::{SOBOL_DIMS, sobol_initial};
-use crate::digital_net::{BITS, DigitalNet};
+use crate::data::direction_numbers::SOBOL_DIMS;
+pub use crate::data::direction_numbers::direction_numbers;
+use crate::digital_net::DigitalNet;
 use crate::scramble::Randomization;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -27,30 +28,4 @@ pub(super) const ENTRY: Entry = Entry {
 pub fn sobol(dims: usize, randomization: Randomization, seed: Seed) -> DigitalNet {
     let columns: Vec<_> = (0..dims).map(direction_numbers).collect();
     DigitalNet::new(&columns, randomization, seed)
-}
-
-/// The columns of one generating matrix, first digit in the most significant bit: what a renderer needs
-/// to build tables of its own. Column k is the word of point 2^k.
-///
-/// With the polynomial `x^s + a_1 x^(s-1) + … + a_s` and `v_k = m_k / 2^k`, Bratley and Fox (1988,
-/// equation 5) give `v_k = a_1 v_(k-1) ⊕ … ⊕ a_s v_(k-s) ⊕ v_(k-s) / 2^s`.
-///
-/// # Panics
-/// If `dim` is not below 21,201.
-pub fn direction_numbers(dim: usize) -> [u64; BITS] {
-    let (polynomial, initial) = sobol_initial(dim);
-    let degree = initial.len();
-    if degree == 0 {
-        return std::array::from_fn(|k| 1 << (BITS - 1 - k)); // van der Corput
-    }
-    let mut columns = [0; BITS];
-    for (k, m) in initial.iter().enumerate() {
-        columns[k] = m << (BITS - 1 - k);
-    }
-    for k in degree..BITS {
-        let taps = (1..=degree).filter(|j| polynomial >> (degree - j) & 1 == 1);
-        let start = columns[k - degree] >> degree;
-        columns[k] = taps.fold(start, |sum, j| sum ^ columns[k - j]);
-    }
-    columns
 }

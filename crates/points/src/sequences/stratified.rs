@@ -22,7 +22,7 @@ pub(super) const ENTRY: Entry = Entry {
     accepts: &[Randomization::None],
     takes: &["n"],
     most_dims: 1 << 20,
-    build: build,
+    build,
 };
 
 /// Jittered points.

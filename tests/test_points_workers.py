@@ -1,0 +1,30 @@
+"""Points made by several threads are the same points."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from evenlight import points
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("info", points.available(), ids=lambda info: info.name)
+def test_the_number_of_workers_changes_nothing(
+    info: points.SequenceInfo, dtype: type[np.float64] | type[np.float32]
+) -> None:
+    engine = points.build(info.name, 5, seed=11)
+    alone: Any = np.empty((40_001, 5), dtype)
+    together: Any = np.empty((40_001, 5), dtype)
+    engine.points(7, 40_008, alone)
+    for workers in (2, 3, -1):
+        engine.points(7, 40_008, together, workers=workers)
+        np.testing.assert_array_equal(alone, together)
+
+
+@pytest.mark.parametrize("workers", [0, -2])
+def test_workers_that_make_no_sense_are_refused(workers: int) -> None:
+    with pytest.raises(ValueError, match="workers must be at least"):
+        points.Sobol(2).points(0, 1, workers=workers)
