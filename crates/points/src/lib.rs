@@ -22,14 +22,22 @@
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(feature = "std")]
+mod cells;
 pub mod convert;
+#[cfg(feature = "std")]
+mod counts;
 mod data;
 #[cfg(feature = "std")]
 pub mod digital_net;
 #[cfg(feature = "std")]
+mod dyadic_pairs;
+#[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
 mod instruction_sets;
+#[cfg(feature = "std")]
+pub mod multi_jitter;
 pub mod owen_hash;
 #[cfg(feature = "std")]
 mod parallel;
@@ -42,9 +50,13 @@ pub mod scramble;
 mod seed;
 #[cfg(feature = "std")]
 pub mod sequences;
+#[cfg(feature = "std")]
+mod shuffle;
 pub mod stateless;
 #[cfg(feature = "std")]
 mod streaming;
+#[cfg(feature = "std")]
+mod tower_field;
 #[cfg(feature = "std")]
 mod unit;
 

@@ -86,6 +86,14 @@ pub(crate) const fn mix(mut x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
+/// A uniform word of a counter and two keys. Two rounds with two keys: a single round would be one of
+/// `SplitMix64`'s streams, all of which are parts of one cycle, so that two dimensions could overlap.
+#[cfg(feature = "std")]
+#[inline(always)]
+pub(crate) const fn counted(index: u64, first: u64, second: u64) -> u64 {
+    mix(mix(first.wrapping_add(index)) ^ second)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,14 +8,63 @@ from typing import Any, NamedTuple, SupportsIndex
 
 from evenlight import _core
 
+from .correlated_multi_jittered import CorrelatedMultiJittered
+from .dyadic import Dyadic
 from .engine import Engine, SeedLike
 from .halton import Halton
 from .independent import Independent
+from .latin_hypercube import LatinHypercube
+from .mersenne_twister import MersenneTwister
+from .multi_jittered import MultiJittered
+from .orthogonal_array import OrthogonalArray
+from .pcg import Pcg
+from .philox import Philox
+from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
+from .stratified import Stratified
+from .sz import Sz
 
-__all__ = ["SEQUENCES", "Engine", "Halton", "Independent", "SequenceInfo", "Sobol", "available", "build"]
+__all__ = [
+    "SEQUENCES",
+    "CorrelatedMultiJittered",
+    "Dyadic",
+    "Engine",
+    "Halton",
+    "Independent",
+    "LatinHypercube",
+    "MersenneTwister",
+    "MultiJittered",
+    "OrthogonalArray",
+    "Pcg",
+    "Philox",
+    "ProgressiveMultiJittered",
+    "SequenceInfo",
+    "Sobol",
+    "Stratified",
+    "Sz",
+    "available",
+    "build",
+]
 
-SEQUENCES: dict[str, type[Engine]] = {sequence.sequence: sequence for sequence in (Sobol, Halton, Independent)}
+SEQUENCES: dict[str, type[Engine]] = {
+    sequence.sequence: sequence
+    for sequence in (
+        Sobol,
+        Halton,
+        Independent,
+        Dyadic,
+        Sz,
+        ProgressiveMultiJittered,
+        LatinHypercube,
+        OrthogonalArray,
+        Stratified,
+        MultiJittered,
+        CorrelatedMultiJittered,
+        Philox,
+        Pcg,
+        MersenneTwister,
+    )
+}
 """The classes by their names in the registry."""
 
 

@@ -1,13 +1,11 @@
 """Independent uniform points: plain Monte Carlo."""
 
-from typing import Any, SupportsIndex
-
-from .engine import Engine, SeedLike
+from .always_random import AlwaysRandom
 
 __all__ = ["Independent"]
 
 
-class Independent(Engine):
+class Independent(AlwaysRandom):
     """Independent uniform points: the yardstick for all other sequences.
 
     Parameters
@@ -37,14 +35,3 @@ class Independent(Engine):
     """
 
     sequence = "independent"
-
-    def __init__(self, d: SupportsIndex, *, seed: SeedLike = None, rng: SeedLike = None, **arguments: Any) -> None:
-        super().__init__(d, **{"scramble": "none", "seed": seed, "rng": rng, **arguments})
-
-    @property
-    def is_random(self) -> bool:
-        """Whether the seed matters: always."""
-        return True
-
-    def _spec(self) -> dict[str, Any]:
-        return {"d": self.d}

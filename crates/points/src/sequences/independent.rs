@@ -10,7 +10,7 @@ use crate::convert::{Unit, unit_f64};
 use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
-use crate::seed::mix;
+use crate::seed::counted;
 use crate::{PointSet, Seed};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -69,7 +69,7 @@ impl PointSet for Independent {
 
     fn coord(&self, index: u64, dim: usize) -> f64 {
         assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
-        unit_f64(hash(index, self.keys[0][dim], self.keys[1][dim]))
+        unit_f64(counted(index, self.keys[0][dim], self.keys[1][dim]))
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
@@ -81,13 +81,6 @@ impl PointSet for Independent {
     }
 }
 
-/// Two rounds with two keys: a single round would be one of `SplitMix64`'s streams, all of which are
-/// parts of one cycle, so that two dimensions could overlap.
-#[inline(always)]
-fn hash(index: u64, first: u64, second: u64) -> u64 {
-    mix(mix(first.wrapping_add(index)) ^ second)
-}
-
 for_this_machine! {
     /// Rows from `start` on, as many as there are keys for.
     uniform_rows = uniform_rows_body<T: Unit>(start: u64, first: &[u64], second: &[u64], out: &mut [T])
@@ -96,6 +89,6 @@ for_this_machine! {
 #[inline(always)]
 fn uniform_rows_body<T: Unit>(start: u64, first: &[u64], second: &[u64], out: &mut [T]) {
     for ((x, &first), &second) in out.iter_mut().zip(first).zip(second) {
-        *x = T::from_word(hash(start, first, second));
+        *x = T::from_word(counted(start, first, second));
     }
 }

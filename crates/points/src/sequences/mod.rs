@@ -3,9 +3,22 @@
 //! To add one, write its file with an `ENTRY`, declare it here and put it in [`ALL`]. The laws, the
 //! golden values, the Python names and the error messages follow from the list.
 
+pub mod correlated_multi_jittered;
+pub mod dyadic;
 pub mod halton;
 pub mod independent;
+pub mod latin_hypercube;
+#[cfg(feature = "generators")]
+pub mod mersenne_twister;
+pub mod multi_jittered;
+pub mod orthogonal_array;
+#[cfg(feature = "generators")]
+pub mod pcg;
+pub mod philox;
+pub mod progressive_multi_jittered;
 pub mod sobol;
+pub mod stratified;
+pub mod sz;
 
 use crate::scramble::Randomization;
 use crate::{Error, PointSet, Seed};
@@ -78,7 +91,24 @@ impl Options {
 }
 
 /// All sequences.
-pub static ALL: &[&Entry] = &[&sobol::ENTRY, &halton::ENTRY, &independent::ENTRY];
+pub static ALL: &[&Entry] = &[
+    &sobol::ENTRY,
+    &halton::ENTRY,
+    &independent::ENTRY,
+    &dyadic::ENTRY,
+    &sz::ENTRY,
+    &progressive_multi_jittered::ENTRY,
+    &latin_hypercube::ENTRY,
+    &orthogonal_array::ENTRY,
+    &stratified::ENTRY,
+    &multi_jittered::ENTRY,
+    &correlated_multi_jittered::ENTRY,
+    &philox::ENTRY,
+    #[cfg(feature = "generators")]
+    &pcg::ENTRY,
+    #[cfg(feature = "generators")]
+    &mersenne_twister::ENTRY,
+];
 
 /// The sequence of this name.
 ///

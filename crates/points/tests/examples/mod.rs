@@ -5,8 +5,23 @@ use evenlight_points::sequences::{self, Entry, Options, Spec};
 use evenlight_points::{PointSet, Seed};
 
 /// The options with which a sequence is tried, for those that do not do without.
-pub(crate) fn options(_name: &str) -> Options {
-    Options::default()
+pub(crate) fn options(name: &str, dims: usize) -> Options {
+    let n = match name {
+        "latin_hypercube" | "multi_jittered" | "correlated_multi_jittered" => Some(1200),
+        // What no number of points could be made of in many dimensions has a single one.
+        "stratified" => Some(if dims > 12 {
+            1
+        } else {
+            4096_f64.powf(1.0 / dims as f64).floor().powi(dims as i32) as u64
+        }),
+        "orthogonal_array" => {
+            let primes = (dims.max(12) as u64 - 1..).filter(|p| (2..*p).all(|divisor| p % divisor > 0));
+            primes.map(|p| p * p).next()
+        }
+        "mersenne_twister" => Some(5000), // it cannot skip rows
+        _ => None,
+    };
+    Options { n, ..Options::default() }
 }
 
 /// A registered sequence, of as many of the dimensions as it has.
@@ -16,8 +31,8 @@ pub(crate) fn build(
     randomization: Randomization,
     seed: Seed,
 ) -> Box<dyn PointSet> {
-    let spec =
-        Spec { options: options(entry.name), ..Spec::new(dims.min(entry.most_dims), randomization, seed) };
+    let dims = dims.min(entry.most_dims);
+    let spec = Spec { options: options(entry.name, dims), ..Spec::new(dims, randomization, seed) };
     sequences::build(entry.name, &spec).expect("the registry accepts its own randomizations")
 }
 
