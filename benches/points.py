@@ -44,7 +44,7 @@ class Bench:
         self.rounds = rounds
         self.yardsticks = Yardsticks()
         most = max(dims * count for dims, count in SHAPES)
-        self._arrays = {np.float64: np.ones(most), np.float32: np.ones(most, np.float32)}
+        self._arrays: dict[type, Any] = {np.float64: np.ones(most), np.float32: np.ones(most, np.float32)}
         # One of its own for memory's turn, which would send the others' from the caches.
         self._beside = np.ones(most)
 
@@ -137,7 +137,7 @@ def measure_families(bench: Bench) -> list[Record]:
         },
         "latin_hypercube": {
             "SciPy": (1 << 17, lambda n: qmc.LatinHypercube(dims, rng=rng).random(n)),
-            "QMCPy": (1 << 17, lambda n: qmcpy.LatinHypercube(dims, seed=1)(n)),
+            "QMCPy": (1 << 17, lambda n: qmcpy.LatinHypercube(dims, replications=1, seed=1)(n)),
         },
         "lattice": {"QMCPy": (large, qmcpy.Lattice(dims, seed=1, order="LINEAR"))},
     }
@@ -146,11 +146,11 @@ def measure_families(bench: Bench) -> list[Record]:
         if name not in points.SEQUENCES:
             continue
         info = next(info for info in points.available() if info.name == name)
-        options = {"n": large} if "n" in info.options else {}
+        options: dict[str, Any] = {"n": large} if "n" in info.options else {}
         engine, out = points.build(name, dims, seed=1, **options), bench.out(np.float64, dims, large)
-        rates = bench.measure({"evenlight": lambda engine=engine, out=out: engine.points(0, large, out)}, dims * large)
+        rates = bench.measure({"evenlight": partial(engine.points, 0, large, out)}, dims * large)
         for rival, (count, run) in theirs.items():
-            rates |= bench.measure({f"{rival}, n = {count}": lambda run=run, n=count: run(n)}, dims * count)
+            rates |= bench.measure({f"{rival}, n = {count}": partial(run, count)}, dims * count)
         records.append({"family": f"{name} ({engine.scramble})", "dims": dims, "count": large, "rates": rates})
     return records
 

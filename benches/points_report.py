@@ -26,7 +26,11 @@ LARGE = 1 << 20
 
 def to_markdown(record: Record) -> str:
     """The tables of a record."""
-    lines = ["# Points", "", "Written by `make bench-points`; figures of one run on one machine. Ratios are what counts."]
+    lines = [
+        "# Points",
+        "",
+        "Written by `make bench-points`; figures of one run on one machine. Ratios are what counts.",
+    ]
     lines += ["", "; ".join(f"{key}: {value}" for key, value in record["machine"].items()), ""]
     for section in (_ratios, _sobol, _threads, _families):
         lines += [*section(record), ""]
@@ -38,10 +42,10 @@ def _ratios(record: Record) -> Iterator[str]:
     yield "## Sobol' points: ratios"
     yield ""
     yield (
-        "2^20 points; ratios of medians, and of the best turns in brackets. *memory* writes one number everywhere with the widest non-temporal stores: the "
-        "limit for any generator. *linear* is a random linear scramble with a digital shift, *owen* the hashed "
-        "nested uniform scramble; both into arrays that were touched before. `sobol_burley` is compiled for this processor and "
-        "makes four dimensions at a time."
+        "2^20 points; ratios of medians, and of the best turns in brackets. *memory* writes one number everywhere "
+        "with the widest non-temporal stores: the limit for any generator. *linear* is a random linear scramble with a "
+        "digital shift, *owen* the hashed nested uniform scramble; both into arrays that were touched before. "
+        "`sobol_burley` is compiled for this processor and makes four dimensions at a time."
     )
     yield ""
     yield f"| | wanted | {' | '.join('d = ' + str(case['dims']) for case in cases)} |"
@@ -67,10 +71,10 @@ def _threads(record: Record) -> Iterator[str]:
     yield "## Two threads"
     yield ""
     yield (
-        "Million coordinates per second of wall time, into arrays that were touched before, with one thread and with two. "
-        "The ratio is that of the best turns, because others may have used the second processor. No generator can be "
-        "faster than memory, whose row says what this machine has for two; `sobol_burley` and `owen_exact` only compute, "
-        "and say what a second processor is worth when memory is idle."
+        "Million coordinates per second of wall time, into arrays that were touched before, with one thread and with "
+        "two. The ratio is that of the best turns, because others may have used the second processor. No generator can "
+        "be faster than memory, whose row says what this machine has for two; `sobol_burley` and `owen_exact` only "
+        "compute, and say what a second processor is worth when memory is idle."
     )
     yield ""
     yield "| | shape | one | two | ratio |"
