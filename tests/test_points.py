@@ -8,7 +8,6 @@ import importlib
 import pickle
 import warnings
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -157,29 +156,6 @@ def test_a_copy_goes_on_where_the_original_was(name: str, settings: dict[str, An
     expected = original.random(8)
     np.testing.assert_array_equal(pickled.random(8), expected)
     np.testing.assert_array_equal(copied.random(8), expected)
-
-
-# As in crates/points/tests/examples/mod.rs.
-GOLDEN: dict[str, dict[str, Any]] = {
-    "latin_hypercube": {"n": 1200},
-    "multi_jittered": {"n": 1200},
-    "correlated_multi_jittered": {"n": 1200},
-    "orthogonal_array": {"n": 41**2},
-    "stratified": {"n": 1},
-    "mersenne_twister": {"n": 5000},
-}
-
-
-def test_golden_bits_reach_python() -> None:
-    golden = Path(__file__).parents[1] / "crates" / "points" / "tests" / "golden.txt"
-    for line in golden.read_text().splitlines():
-        name, scramble, index, *bits = line.split()
-        row = int(index)
-        sequence = points.build(name, 40, scramble=scramble, seed=7, **GOLDEN.get(name, {}))
-        if row == 2**64 - 1:  # no half-open range contains the last row
-            continue
-        values = sequence.points(row, row + 1)[0, [0, 1, 5, 39]]
-        assert [f"{word:016x}" for word in values.view(np.uint64)] == bits, line
 
 
 @every_engine

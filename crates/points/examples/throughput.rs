@@ -4,7 +4,7 @@
 
 use std::time::Instant;
 
-use evenlight_points::sequences::{self, Spec};
+use evenlight_points::sequences::{self, Options, Spec};
 use evenlight_points::{Error, Seed};
 
 /// Coordinates in each run, which is 8 MiB of doubles; the best of some runs counts.
@@ -18,7 +18,13 @@ fn main() -> Result<(), Error> {
         for scramble in entry.accepts {
             print!("{:<28}", format!("{} / {}", entry.name, scramble.name()));
             for dims in [2, 8, 64, 1024] {
-                let points = sequences::build(entry.name, &Spec::new(dims, *scramble, Seed::new(1)))?;
+                let options = Options { n: count(entry.name, dims), ..Options::default() };
+                let spec = Spec { options, ..Spec::new(dims, *scramble, Seed::new(1)) };
+                let points = sequences::build(entry.name, &spec)?;
+                if points.len().is_some_and(|len| len < (COORDINATES / dims) as u64) {
+                    print!("{:>8}", "-");
+                    continue;
+                }
                 let seconds = (0..RUNS).map(|_| {
                     let start = Instant::now();
                     points.fill(0..(COORDINATES / dims) as u64, &mut out);
@@ -30,4 +36,17 @@ fn main() -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// The number of points of the finite sets: about as many as there are coordinates.
+fn count(sequence: &str, dims: usize) -> Option<u64> {
+    match (sequence, dims) {
+        ("latin_hypercube" | "multi_jittered" | "correlated_multi_jittered", _) | ("stratified", 2) => {
+            Some(1 << 20)
+        }
+        ("stratified", 8) => Some(6_u64.pow(8)),
+        ("stratified", _) => Some(1), // there is no grid
+        ("orthogonal_array", _) => Some(1031 * 1031),
+        _ => None,
+    }
 }

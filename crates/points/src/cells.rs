@@ -4,6 +4,10 @@
 //! stays in its cell. Elsewhere the end of a cell is no word; places keep a distance of a few units of
 //! the last of 53 digits from it, so that x is in its cell and the rounded product x · n has the integer part c.
 
+use crate::convert::unit_f64;
+use crate::instruction_sets::for_this_machine;
+use crate::seed::counted;
+
 /// Units of 2⁻⁶⁴ below the last of 53 binary digits.
 const ROUNDING: u64 = 1 << 11;
 
@@ -40,6 +44,18 @@ impl Cells {
         let cell = u64::from(cell);
         let begin = cell.wrapping_mul(self.pitch[0]) + ((cell * self.pitch[1]) >> 32) + self.start;
         begin + scaled(within, self.width)
+    }
+}
+
+for_this_machine! {
+    /// The coordinates of consecutive points from `start` on, whose places within their cells come from two keys.
+    place_points = place_points_body(cells: Cells, start: u64, keys: [u64; 2], numbers: &[u32], out: &mut [f64])
+}
+
+#[inline(always)]
+fn place_points_body(cells: Cells, start: u64, keys: [u64; 2], numbers: &[u32], out: &mut [f64]) {
+    for ((x, &cell), i) in out.iter_mut().zip(numbers).zip(0..) {
+        *x = unit_f64(cells.place(cell, counted(start.wrapping_add(i), keys[0], keys[1])));
     }
 }
 

@@ -8,11 +8,11 @@
 
 use std::ops::Range;
 
-use crate::cells::Cells;
+use crate::cells::{Cells, place_points};
 use crate::convert::unit_f64;
 use crate::point_set::check_length;
-use crate::seed::{counted, mix};
-use crate::shuffle::{self, Keys, Shuffle};
+use crate::seed::counted;
+use crate::shuffle::{self, BLOCK, Keys, Shuffle, divide, keys_for};
 use crate::{PointSet, Seed};
 
 /// Independent multi-jittered pairs; an odd last coordinate is the first of a pair.
@@ -65,11 +65,32 @@ impl MultiJitter {
     fn coordinate(&self, index: u64, cell: [u64; 2], pair: &Pair, half: usize) -> f64 {
         let (major, minor, slices) =
             if half == 0 { (cell[0], cell[1], self.rows) } else { (cell[1], cell[0], self.columns) };
-        let word =
-            if self.correlated { pair.slices[half] } else { mix(pair.slices[half].wrapping_add(major)) };
-        let slice = self.shuffles[1 + half].image(minor, shuffle::keys(word));
+        let keys = keys_for(pair.slices[half], if self.correlated { 0 } else { major });
+        let slice = self.shuffles[1 + half].image(minor, keys);
         let [first, second] = pair.places[half];
         unit_f64(self.cells.place((major * slices + slice) as u32, counted(index, first, second)))
+    }
+
+    /// A pair of coordinates of some consecutive points, as columns.
+    fn block(&self, start: u64, count: usize, pair: &Pair) -> [[f64; BLOCK]; 2] {
+        let mut cells = [[0; BLOCK], std::array::from_fn(|i| start as u32 + i as u32)];
+        let [column, row] = &mut cells;
+        self.shuffles[0].permute_alike(&mut row[..count], pair.order);
+        divide(self.columns as u32, row, column);
+        [0, 1].map(|half| {
+            let (major, mut slices) = (&cells[half], cells[1 - half]);
+            let (shuffle, word) = (&self.shuffles[1 + half], pair.slices[half]);
+            if self.correlated {
+                shuffle.permute_alike(&mut slices[..count], keys_for(word, 0));
+            } else {
+                shuffle.permute_apart(&mut slices[..count], word, &major[..count]);
+            }
+            let each = if half == 0 { self.rows } else { self.columns } as u32;
+            slices.iter_mut().zip(major).take(count).for_each(|(slice, major)| *slice += major * each);
+            let mut out = [0.0; BLOCK];
+            place_points(self.cells, start, pair.places[half], &slices[..count], &mut out);
+            out
+        })
     }
 
     /// The cell of the grid that a point is in.
@@ -106,11 +127,15 @@ impl PointSet for MultiJitter {
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
         check_length(&rows, self.dims, out.len());
-        for (index, point) in rows.zip(out.chunks_exact_mut(self.dims)) {
-            for (both, pair) in point.chunks_mut(2).zip(&self.pairs) {
-                let cell = self.cell(index, pair);
-                for (half, x) in both.iter_mut().enumerate() {
-                    *x = self.coordinate(index, cell, pair, half);
+        for (start, part) in rows.step_by(BLOCK).zip(out.chunks_mut(BLOCK * self.dims)) {
+            for (pair, first) in self.pairs.iter().zip((0..).step_by(2)) {
+                let columns = self.block(start, part.len() / self.dims, pair);
+                for (dim, column) in (first..self.dims).zip(&columns) {
+                    part.iter_mut()
+                        .skip(dim)
+                        .step_by(self.dims)
+                        .zip(column)
+                        .for_each(|(x, value)| *x = *value);
                 }
             }
         }

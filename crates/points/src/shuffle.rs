@@ -11,12 +11,18 @@
 //! a mean over permuted strata depends on pairs alone.
 
 use crate::instruction_sets::for_this_machine;
+use crate::seed::mix;
 
 /// The most numbers that can be permuted, so that digits have 16 bits and images 32.
 pub(crate) const MOST: u64 = 1 << 31;
 
 /// Pairs of rounds at least.
 const PAIRS: u32 = 3;
+
+/// The keys that a random word has for a number: permutations of one kind that are independent.
+pub(crate) const fn keys_for(word: u64, number: u64) -> Keys {
+    keys(mix(word.wrapping_add(number)))
+}
 
 /// The permutations of some numbers, one for each key.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +32,9 @@ pub(crate) struct Shuffle {
     sizes: [u32; 2],
     pairs: u32,
 }
+
+/// The most numbers that are permuted at a time.
+pub(crate) const BLOCK: usize = 256;
 
 /// What a permutation is known by: the key of the first round and the odd step to the next one's.
 pub(crate) type Keys = [u32; 2];
@@ -79,6 +88,28 @@ impl Shuffle {
                 *image = self.walk(self.digits(u64::from(*image)), [keys[0][i], keys[1][i]]) as u32;
             }
         }
+    }
+
+    /// Replaces numbers below `n` by their images, each under the permutation of its own keys.
+    pub(crate) fn permute(&self, numbers: &mut [u32], keys: [&[u32]; 2]) {
+        let mut right = [0; BLOCK];
+        let right = &mut right[..numbers.len()];
+        divide(self.sizes[1], numbers, right);
+        self.images(numbers, right, keys);
+    }
+
+    /// [`permute`](Self::permute) with the same keys for all.
+    pub(crate) fn permute_alike(&self, numbers: &mut [u32], [key, step]: Keys) {
+        let (keys, steps) = ([key; BLOCK], [step; BLOCK]);
+        self.permute(numbers, [&keys[..numbers.len()], &steps[..numbers.len()]]);
+    }
+
+    /// [`permute`](Self::permute) with the keys that a random word has for each of some other numbers.
+    pub(crate) fn permute_apart(&self, numbers: &mut [u32], word: u64, others: &[u32]) {
+        let (mut keys, mut steps) = ([0; BLOCK], [0; BLOCK]);
+        let (keys, steps) = (&mut keys[..numbers.len()], &mut steps[..numbers.len()]);
+        keys_apart(word, others, keys, steps);
+        self.permute(numbers, [keys, steps]);
     }
 
     /// Applies the network until it leads back to a number below `n`.
@@ -139,6 +170,35 @@ fn rounds_body(sizes: [u32; 2], pair: u32, keys: [&[u32]; 2], left: &mut [u32], 
 }
 
 for_this_machine! {
+    /// Divides numbers below 2^31; they become quotients.
+    divide = divide_body(by: u32, numbers: &mut [u32], remainders: &mut [u32])
+}
+
+#[inline(always)]
+fn divide_body(by: u32, numbers: &mut [u32], remainders: &mut [u32]) {
+    let reciprocal = (1 << 32) / u64::from(by);
+    for (number, remainder) in numbers.iter_mut().zip(remainders) {
+        // Right, or one too small.
+        let quotient = ((u64::from(*number) * reciprocal) >> 32) as u32;
+        let rest = *number - quotient * by;
+        let short = u32::from(rest >= by);
+        (*number, *remainder) = (quotient + short, rest - short * by);
+    }
+}
+
+for_this_machine! {
+    /// [`keys_for`] many numbers.
+    keys_apart = keys_apart_body(word: u64, numbers: &[u32], keys: &mut [u32], steps: &mut [u32])
+}
+
+#[inline(always)]
+fn keys_apart_body(word: u64, numbers: &[u32], keys: &mut [u32], steps: &mut [u32]) {
+    for ((&number, key), step) in numbers.iter().zip(keys).zip(steps) {
+        [*key, *step] = keys_for(word, u64::from(number));
+    }
+}
+
+for_this_machine! {
     /// Digits to numbers, which replace the left digits, and the largest of them.
     join = join_body(size: u32, left: &mut [u32], right: &[u32], most: &mut u32)
 }
@@ -169,6 +229,18 @@ mod tests {
             let mut images: Vec<_> = (0..n).map(|i| shuffle.image(i, word(n))).collect();
             images.sort_unstable();
             assert!(images.into_iter().eq(0..n), "{n}");
+        }
+    }
+
+    #[test]
+    fn quotients_and_remainders_are_exact() {
+        let numbers = [0, 1, 2, 6, 7, 1000, 65_535, (1 << 31) - 2, (1 << 31) - 1];
+        for by in [1, 2, 3, 7, 1000, 46_337, 65_536, (1 << 31) - 1] {
+            let (mut quotients, mut remainders) = (numbers, [0; 9]);
+            divide(by, &mut quotients, &mut remainders);
+            for ((number, quotient), remainder) in numbers.iter().zip(quotients).zip(remainders) {
+                assert_eq!((quotient, remainder), (number / by, number % by), "{number} by {by}");
+            }
         }
     }
 

@@ -14,13 +14,13 @@
 use std::ops::Range;
 
 use super::{Entry, Spec};
-use crate::cells::Cells;
+use crate::cells::{Cells, place_points};
 use crate::convert::unit_f64;
 use crate::counts::{counted_points, root, wrong_count};
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
-use crate::seed::{counted, mix};
-use crate::shuffle::{self, Keys, Shuffle};
+use crate::seed::counted;
+use crate::shuffle::{self, BLOCK, Keys, Shuffle, divide, keys_for};
 use crate::{Error, PointSet, Seed};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -95,10 +95,47 @@ impl OrthogonalArray {
         };
         let axis = &self.axes[dim];
         let level = self.shuffles[1].image(value, axis.levels);
-        let slice = self.shuffles[2].image(rank, shuffle::keys(mix(axis.slices.wrapping_add(level))));
+        let slice = self.shuffles[2].image(rank, keys_for(axis.slices, level));
         let cell = level * (self.n / p) + slice;
         unit_f64(self.cells.place(cell as u32, counted(index, axis.place[0], axis.place[1])))
     }
+}
+
+/// The same for blocks of consecutive points.
+impl OrthogonalArray {
+    fn block_coefficients(&self, start: u64, count: usize) -> [[u32; BLOCK]; STRENGTH] {
+        let [mut a, mut b] = [[0; BLOCK]; 2];
+        let mut rest = std::array::from_fn(|i| start as u32 + i as u32);
+        self.shuffles[0].permute_alike(&mut rest[..count], self.order);
+        divide(self.levels as u32, &mut rest, &mut a);
+        divide(self.levels as u32, &mut rest, &mut b);
+        [a, b, rest]
+    }
+
+    fn block(&self, start: u64, dim: usize, [a, b, c]: &[[u32; BLOCK]; STRENGTH], out: &mut [f64]) {
+        let (p, at, count) = (self.levels as u32, dim as u32, out.len());
+        let (mut levels, mut cells) = match (at == p, self.strength) {
+            (false, _) => (polynomial(p, at, [a, b, c]), std::array::from_fn(|i| c[i] * p + b[i])),
+            (true, 2) => (*b, *a),
+            (true, _) => (*c, std::array::from_fn(|i| b[i] * p + a[i])),
+        };
+        let axis = &self.axes[dim];
+        self.shuffles[1].permute_alike(&mut levels[..count], axis.levels);
+        self.shuffles[2].permute_apart(&mut cells[..count], axis.slices, &levels[..count]);
+        let each = (self.n / self.levels) as u32;
+        cells.iter_mut().zip(&levels).take(count).for_each(|(cell, level)| *cell += level * each);
+        place_points(self.cells, start, axis.place, &cells[..count], out);
+    }
+}
+
+/// c x² + b x + a modulo p, by Horner's rule.
+fn polynomial(p: u32, x: u32, [a, b, c]: [&[u32; BLOCK]; STRENGTH]) -> [u32; BLOCK] {
+    [b, a].into_iter().fold(*c, |value, coefficient| {
+        let mut sum: [u32; BLOCK] = std::array::from_fn(|i| value[i] * x + coefficient[i]);
+        let mut remainder = [0; BLOCK];
+        divide(p, &mut sum, &mut remainder);
+        remainder
+    })
 }
 
 fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
@@ -146,10 +183,17 @@ impl PointSet for OrthogonalArray {
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
         check_length(&rows, self.dims(), out.len());
-        for (index, point) in rows.zip(out.chunks_exact_mut(self.dims())) {
-            let coefficients = self.coefficients(index);
-            for (dim, x) in point.iter_mut().enumerate() {
-                *x = self.coordinate(index, dim, coefficients);
+        let mut column = [0.0; BLOCK];
+        for (start, part) in rows.step_by(BLOCK).zip(out.chunks_mut(BLOCK * self.dims())) {
+            let count = part.len() / self.dims();
+            let coefficients = self.block_coefficients(start, count);
+            for dim in 0..self.dims() {
+                self.block(start, dim, &coefficients, &mut column[..count]);
+                part.iter_mut()
+                    .skip(dim)
+                    .step_by(self.dims())
+                    .zip(&column)
+                    .for_each(|(x, value)| *x = *value);
             }
         }
     }

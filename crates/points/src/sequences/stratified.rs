@@ -7,13 +7,13 @@
 use std::ops::Range;
 
 use super::{Entry, Spec};
-use crate::cells::Cells;
+use crate::cells::{Cells, place_points};
 use crate::convert::unit_f64;
 use crate::counts::{counted_points, root, wrong_count};
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
 use crate::seed::counted;
-use crate::shuffle::{self, Keys, Shuffle};
+use crate::shuffle::{self, BLOCK, Keys, Shuffle, divide};
 use crate::{Error, PointSet, Seed};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -52,12 +52,6 @@ impl Stratified {
             places: (0..dims as u64).map(|dim| [place(dim, 1), place(dim, 2)]).collect(),
         }
     }
-
-    /// The coordinate of point `index` whose cell number along the axis is the last digit of `cell`.
-    fn coordinate(&self, index: u64, dim: usize, cell: u64) -> f64 {
-        let [first, second] = self.places[dim];
-        unit_f64(self.cells.place((cell % self.side) as u32, counted(index, first, second)))
-    }
 }
 
 fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
@@ -88,16 +82,25 @@ impl PointSet for Stratified {
         let cell = self.shuffle.image(index, self.order);
         // Where the power does not fit, there is a single cell.
         let place = self.side.checked_pow(dim as u32).unwrap_or(u64::MAX);
-        self.coordinate(index, dim, cell / place)
+        let [first, second] = self.places[dim];
+        unit_f64(self.cells.place((cell / place % self.side) as u32, counted(index, first, second)))
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
         check_length(&rows, self.dims(), out.len());
-        for (index, point) in rows.zip(out.chunks_exact_mut(self.dims())) {
-            let mut cell = self.shuffle.image(index, self.order);
-            for (dim, x) in point.iter_mut().enumerate() {
-                *x = self.coordinate(index, dim, cell);
-                cell /= self.side;
+        let (mut column, mut digits) = ([0.0; BLOCK], [0; BLOCK]);
+        for (start, part) in rows.step_by(BLOCK).zip(out.chunks_mut(BLOCK * self.dims())) {
+            let count = part.len() / self.dims();
+            let mut cells: [u32; BLOCK] = std::array::from_fn(|i| start as u32 + i as u32);
+            self.shuffle.permute_alike(&mut cells[..count], self.order);
+            for (dim, &keys) in self.places.iter().enumerate() {
+                divide(self.side as u32, &mut cells, &mut digits);
+                place_points(self.cells, start, keys, &digits[..count], &mut column);
+                part.iter_mut()
+                    .skip(dim)
+                    .step_by(self.dims())
+                    .zip(&column)
+                    .for_each(|(x, value)| *x = *value);
             }
         }
     }
