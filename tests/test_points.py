@@ -6,6 +6,7 @@ import copy
 import doctest
 import importlib
 import pickle
+import re
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -286,6 +287,18 @@ def test_points_go_into_arrays_of_other_libraries() -> None:
         sobol.points(0, 8, out, xp=np)
 
 
+class OutOfReach(Foreign):
+    """An array that is not in main memory."""
+
+    def __dlpack__(self, **arguments: Any) -> Any:
+        raise BufferError("it is on another device")
+
+
+def test_arrays_out_of_reach_are_refused() -> None:
+    with pytest.raises(TypeError, match="NumPy can view; OutOfReach cannot be: it is on another device"):
+        Sobol(3).points(0, 8, OutOfReach(np.zeros((8, 3))))
+
+
 def test_scrambles_are_switched_as_in_scipy() -> None:
     assert Sobol(2, scramble=True).scramble == "owen"
     assert Sobol(2, scramble=False).scramble == "none"
@@ -345,6 +358,32 @@ def test_unbalanced_sobol_points_warn_once() -> None:
         sobol.reset().random(5)
         Sobol(2).random(64)
         Halton(2).random(1000)
+
+
+@pytest.mark.parametrize("name", [name for name, sequence in points.SEQUENCES.items() if not sequence.finite])
+def test_counts_that_break_the_balance_are_named_with_better_ones(name: str) -> None:
+    sequence = points.build(name, 2, seed=1)
+    base = sequence._core.base
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        sequence.random(1000)
+        sequence.reset().random(1000)
+        if base is not None:
+            points.build(name, 2, seed=1).random(base**3)
+    assert len(caught) == (base is not None)
+    for warning in caught:
+        assert warning.category is UserWarning
+        assert warning.filename == __file__
+        found = re.search(r"powers of (\d+): take n = (\d+) or (\d+), not 1000", str(warning.message))
+        assert found
+        assert int(found[1]) == base
+        more, less = int(found[2]), int(found[3])
+        assert less < 1000 < more == less * base
+        assert base ** round(np.log(less) / np.log(base)) == less
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.filterwarnings("ignore", ".* are balanced in powers of")
+        points.build(name, 2, seed=1).random(1000)
 
 
 def test_random_base2_keeps_totals_balanced() -> None:

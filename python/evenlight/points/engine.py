@@ -45,6 +45,12 @@ class Engine(qmc.QMCEngine):
         If an argument has the wrong type, or both seeds are given.
     ValueError
         If an argument has no meaning; the message says what is allowed.
+
+    Warns
+    -----
+    UserWarning
+        Once, if the first call of `random` draws other than a power of the base in which the points are balanced; the
+        message names the next ones. To silence it: ``warnings.filterwarnings("ignore", ".* are balanced in powers of")``.
     """
 
     sequence: ClassVar[str]
@@ -322,7 +328,10 @@ def _writable(out: Any) -> npt.NDArray[Any]:
         return out
     if not hasattr(out, "__dlpack__"):
         raise TypeError(f"out must be a numpy array or export DLPack, not {type(out).__name__}")
-    array: npt.NDArray[Any] = np.from_dlpack(out)
+    try:
+        array: npt.NDArray[Any] = np.from_dlpack(out)
+    except (BufferError, RuntimeError, TypeError, ValueError) as error:  # on a GPU, with gradients, of odd types …
+        raise TypeError(f"out must be an array that NumPy can view; {type(out).__name__} cannot be: {error}") from error
     if not array.flags.writeable:
         raise TypeError(f"out must be writable; {type(out).__name__} exports itself as read-only")
     return array
