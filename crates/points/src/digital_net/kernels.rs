@@ -15,7 +15,7 @@ pub(super) struct Period<'a, D> {
     pub(super) words: usize,
     /// What is added to the words of the tile without carry.
     pub(super) offsets: &'a [D],
-    /// What the Owen hash adds and what it multiplies with; empty without it.
+    /// What the Owen hash adds and multiplies with, or the one key of a randomization by word; empty without either.
     pub(super) keys: [&'a [D]; 2],
 }
 
@@ -42,18 +42,18 @@ for_this_machine! {
 }
 
 for_this_machine! {
-    /// Points scrambled node by node: words of a tile, offsets of at least a row, one key for each coordinate.
-    owen_exact = owen_exact_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T])
+    /// Points scrambled node by node.
+    owen_exact = owen_exact_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T])
 }
 
 for_this_machine! {
-    /// Points shifted modulo 1; arguments as in [`owen_exact`].
-    added = added_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T])
+    /// Points shifted modulo 1.
+    added = added_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T])
 }
 
 #[inline(always)]
-fn owen_exact_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]) {
-    let mut row = offsets.iter().zip(keys).cycle();
+fn owen_exact_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T]) {
+    let mut row = period.offsets.iter().zip(period.keys[0]).take(period.words).cycle();
     for (tile, out) in tile.chunks(WORDS).zip(out.chunks_mut(WORDS)) {
         let (mut words, mut word_keys) = ([0; WORDS], [0; WORDS]);
         let places = words.iter_mut().zip(&mut word_keys).zip(tile).take(out.len());
@@ -66,9 +66,9 @@ fn owen_exact_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &m
 }
 
 #[inline(always)]
-fn added_body<T: Unit>(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]) {
-    for (tile, out) in tile.chunks(keys.len()).zip(out.chunks_mut(keys.len())) {
-        for (((x, word), offset), &key) in out.iter_mut().zip(tile).zip(offsets).zip(keys) {
+fn added_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T]) {
+    for (tile, out) in tile.chunks(period.words).zip(out.chunks_mut(period.words)) {
+        for (((x, word), offset), &key) in out.iter_mut().zip(tile).zip(period.offsets).zip(period.keys[0]) {
             *x = T::from_word((word ^ offset).wrapping_add(key));
         }
     }

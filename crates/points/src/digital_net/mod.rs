@@ -12,6 +12,7 @@ mod tables;
 use std::ops::Range;
 use std::sync::Arc;
 
+use self::kernels::Period;
 use self::tables::Tables;
 use crate::convert::{Unit, unit_f64};
 use crate::point_set::check_length;
@@ -119,19 +120,18 @@ impl DigitalNet {
 
     /// The randomizations that take all digits of a word, whatever the precision of the result.
     fn fill_by_word<T: Unit>(&self, rows: Range<u64>, out: &mut [T], kernel: WordKernel<T>) {
-        let keys: Vec<_> = self.keys.iter().map(|key| key.bits64()).collect();
         let mut rest = out;
         Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
             let words = (tile.len() - LANES).min(rest.len());
             let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
-            kernel(tile, period.offsets, &keys, part);
+            kernel(tile, period, part);
             rest = later;
         });
     }
 }
 
-/// Makes numbers from the words of a tile, the offsets of a row and the keys of the coordinates.
-type WordKernel<T> = fn(tile: &[u64], offsets: &[u64], keys: &[u64], out: &mut [T]);
+/// Makes numbers from the words of a tile and what belongs to them.
+type WordKernel<T> = fn(tile: &[u64], period: Period<'_, u64>, out: &mut [T]);
 
 /// Columns with the linear part of an affine randomization applied, and its shifts.
 fn built_in(plain: &[u64], keys: &[Seed], apply: fn(u64, Seed) -> u64) -> (Arc<[u64]>, Vec<u64>) {

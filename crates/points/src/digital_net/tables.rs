@@ -28,7 +28,7 @@ pub(super) struct Tables<'a, D> {
     period: usize,
     /// What the offsets change by when a block is left whose number ends in 0, 1, 2, … ones.
     steps: Vec<Vec<D>>,
-    /// What the Owen hash adds and multiplies with.
+    /// What the Owen hash adds and multiplies with, or the keys of a randomization by word.
     keys: [Vec<D>; 2],
 }
 
@@ -42,10 +42,16 @@ impl<'a, D: Digits> Tables<'a, D> {
         let mut tables = Self { net, tile: vec![], tile_bits, period, steps: vec![], keys: [vec![], vec![]] };
         tables.tile = tables.first_rows();
         tables.steps = tables.steps_within(changing);
-        if net.randomization == Randomization::Owen {
-            let (addends, factors): (Vec<D>, Vec<D>) =
-                net.keys.iter().map(|key| D::owen_key(key.bits64())).unzip();
-            tables.keys = [tables.repeated(&addends), tables.repeated(&factors)];
+        let bits = || net.keys.iter().map(|key| key.bits64());
+        match net.randomization {
+            Randomization::Owen => {
+                let (addends, factors): (Vec<D>, Vec<D>) = bits().map(D::owen_key).unzip();
+                tables.keys = [tables.repeated(&addends), tables.repeated(&factors)];
+            }
+            Randomization::OwenExact | Randomization::Shift => {
+                tables.keys[0] = tables.repeated(&bits().map(D::leading).collect::<Vec<_>>());
+            }
+            _ => {}
         }
         tables
     }
