@@ -50,7 +50,7 @@ class Engine(qmc.QMCEngine):
     -----
     UserWarning
         Once, if the first call of `random` draws other than a power of the base in which the points are balanced; the
-        message names the next ones. To silence it: ``warnings.filterwarnings("ignore", ".* are balanced in powers of")``.
+        message names the next ones. ``warnings.filterwarnings("ignore", ".* are balanced in powers of")`` silences it.
     """
 
     sequence: ClassVar[str]
