@@ -7,8 +7,11 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+from evenlight import points
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -30,3 +33,20 @@ def evenlight_command(tmp_path: Path) -> Run:
         return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=100)
 
     return run
+
+
+def fitting_count(name: str, d: int, least: int) -> dict[str, Any]:
+    """A number of points that a finite set of d dimensions can have, at least some number; nothing for sequences."""
+    if not points.SEQUENCES[name].finite:
+        return {}
+    if name == "stratified":
+        side = 1
+        while side**d < least:
+            side += 1
+        return {"n": side**d}
+    if name == "orthogonal_array":
+        side = 2
+        while side**2 < least or side + 1 < d or any(side % divisor == 0 for divisor in range(2, side)):
+            side += 1
+        return {"n": side**2}
+    return {"n": least}

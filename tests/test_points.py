@@ -17,6 +17,7 @@ import pytest
 from scipy.integrate import qmc_quad
 from scipy.stats import qmc
 
+from conftest import fitting_count
 from evenlight import points
 from evenlight.points import Engine, Halton, Independent, Sobol
 
@@ -29,16 +30,9 @@ IDS = [f"{name}-{settings.get('scramble', 'none')}" for name, settings in ENGINE
 every_engine = pytest.mark.parametrize(("name", "settings"), ENGINES, ids=IDS)
 
 
-def count(name: str, d: int) -> dict[str, Any]:
-    """The number of points with which a finite set is tried; at least 2^14 where it can be had."""
-    if not points.SEQUENCES[name].finite:
-        return {}
-    powers = {1: 2**14, 2: 128**2, 3: 26**3, 5: 8**5, 10: 3**10}
-    return {"n": powers.get(d, 1) if name == "stratified" else 131**2}
-
-
 def engine(name: str, settings: dict[str, Any], d: int = 3, seed: int = 11) -> Engine:
-    return points.SEQUENCES[name](d, seed=seed, **count(name, d), **settings)
+    least = 1 if name == "stratified" and d > 10 else 17_000
+    return points.SEQUENCES[name](d, seed=seed, **fitting_count(name, d, least), **settings)
 
 
 # --- SciPy's protocol: the checks of its own QMCEngineTests, but exact to the bit ---
@@ -134,7 +128,7 @@ def test_scipy_makes_normal_points() -> None:
 def test_same_seed_same_bits(name: str, settings: dict[str, Any]) -> None:
     first, again = engine(name, settings, seed=5), engine(name, settings, seed=5)
     np.testing.assert_array_equal(first.random(16), again.random(16))
-    default = points.SEQUENCES[name](3, **count(name, 3), **settings)
+    default = points.SEQUENCES[name](3, **fitting_count(name, 3, 17_000), **settings)
     np.testing.assert_array_equal(default.random(16), engine(name, settings, seed=0).random(16))
     if settings.get("scramble") != "none":
         assert not np.array_equal(first.points(0, 4), engine(name, settings, seed=6).points(0, 4))
@@ -340,12 +334,12 @@ def test_every_registered_sequence_has_its_class_and_its_own_default() -> None:
     assert [info.name for info in points.available()] == list(points.SEQUENCES)
     for info in points.available():
         assert info.cite
-        built = points.build(info.name, 2, seed=4, **count(info.name, 2))
+        built = points.build(info.name, 2, seed=4, **fitting_count(info.name, 2, 17_000))
         assert type(built) is points.SEQUENCES[info.name]
         assert built.scramble == info.scrambles[0]
         width = min(info.most_dims, 10**5)
-        finite = {"stratified": {"n": 1}, "orthogonal_array": {"n": 46_337**2}}.get(info.name, count(info.name, width))
-        assert points.build(info.name, width, **finite).points(0, 1).max() < 1
+        count = fitting_count(info.name, width, 1)
+        assert points.build(info.name, width, **count).points(0, 1).max() < 1
 
 
 def test_the_expression_that_builds_an_engine_is_its_representation() -> None:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from conftest import fitting_count
 from evenlight import points
 
 
@@ -15,7 +16,7 @@ from evenlight import points
 def test_the_number_of_workers_changes_nothing(
     info: points.SequenceInfo, dtype: type[np.float64] | type[np.float32]
 ) -> None:
-    engine = points.build(info.name, 5, seed=11)
+    engine = points.build(info.name, 5, seed=11, **fitting_count(info.name, 5, 40_008))
     alone: Any = np.empty((40_001, 5), dtype)
     together: Any = np.empty((40_001, 5), dtype)
     engine.points(7, 40_008, alone)

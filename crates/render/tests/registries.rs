@@ -21,7 +21,7 @@ macro_rules! names {
 fn families() -> Vec<Family> {
     vec![
         ("points/src/sequences", names!(sequences::ALL), &[]),
-        ("points/src/scramble", names!(scramble::ALL), &[]),
+        ("points/src/scramble", names!(scramble::ALL), &["matrix"]),
         (
             "render/src/bsdf",
             names!(bsdf::ALL),
