@@ -47,10 +47,10 @@ class Normal(Density):
                 f"a mean of shape {self.mean.shape} and a covariance of {self.covariance.shape} do not fit"
             )
         try:
-            self.root: Array = np.linalg.cholesky(self.covariance)
+            self.root: Array = np.asarray(np.linalg.cholesky(self.covariance), np.float64)
         except np.linalg.LinAlgError:
             raise ValueError("the covariance is not positive definite") from None
-        self._inverse_root = linalg.solve_triangular(self.root, np.eye(self.d), lower=True)
+        self._inverse_root: Array = linalg.solve_triangular(self.root, np.eye(self.d), lower=True)
         self._constant = -0.5 * self.d * np.log(2 * np.pi) - float(np.log(np.diag(self.root)).sum())
 
     def sample(self, u: Array) -> Array:
