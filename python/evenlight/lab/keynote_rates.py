@@ -41,7 +41,7 @@ RATE_CASES: tuple[RateCase, ...] = (
     _case("QMC (van der Corput), finite variation", -1.0, "genz_gaussian", Halton(1, scramble="none"), most=2**16),
     _case("RQMC (Owen), smooth, d = 1", -1.5, "genz_product_peak", Sobol(1)),
     _case("RQMC (Owen), smooth, d = 2, log n taken out", -1.5, "genz_gaussian", Sobol(2), log_power=0.5, most=2**13),
-    # a boundary meets n^((d - 1) / d) of n boxes with a point each: Z. He, X. Wang, SIAM J. Numer. Anal. 53, 2488 (2015)
+    # a boundary meets n^((d - 1) / d) of n boxes, a point in each: Z. He, X. Wang, SIAM J. Num. Anal. 53, 2488 (2015)
     _case("RQMC (Owen), discontinuous, d = 2", -0.75, "ball", Sobol(2), replicates=200),
     _case("RQMC (Owen), discontinuous, d = 3", -2 / 3, "ball", Sobol(3), replicates=200),
     # the first of n strata has nearly all of the variance, n^(2A - 2)
