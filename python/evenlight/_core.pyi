@@ -25,6 +25,8 @@ __all__ = [
     "scrambles",
     "sensors",
     "shapes",
+    "t_value",
+    "t_value_in_base",
     "textures",
     "write_exr",
     "write_png",
@@ -48,6 +50,8 @@ class PointSet:
         order: int | None = None,
         strength: int | None = None,
         generator: Sequence[int] | None = None,
+        matrices: Sequence[Sequence[int]] | None = None,
+        bits: int | None = None,
     ) -> PointSet: ...
     @property
     def dims(self) -> int: ...
@@ -55,6 +59,7 @@ class PointSet:
     def count(self) -> int | None: ...
     @property
     def base(self) -> int | None: ...
+    def generating_matrices(self) -> list[list[int]] | None: ...
     def coord(self, index: int, dim: int) -> float: ...
     def fill(self, start: int, stop: int, out: NDArray[np.float64] | NDArray[np.float32], workers: int) -> None: ...
     def fill_replicates(
@@ -68,6 +73,11 @@ class PointSet:
 
 def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: ...
+
+# --- quality ---
+
+def t_value(matrices: Sequence[Sequence[int]], m: int) -> int: ...
+def t_value_in_base(base: int, matrices: Sequence[Sequence[Sequence[int]]], m: int) -> int: ...
 
 # --- render ---
 
