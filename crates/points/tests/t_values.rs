@@ -112,7 +112,7 @@ fn faure_is_perfect_in_its_base() {
     }
 }
 
-/// The definition: the largest k such that every box of volume b^(−k) with sides b^(−d_j) holds the same number of points.
+/// The definition: the largest k such that every box of volume b^(−k) with sides `b^(−d_j)` holds the same number of points.
 fn by_counting(base: u32, matrices: &[Vec<Vec<u32>>], m: u32) -> u32 {
     let digits = |mut i: u32| std::array::from_fn::<u32, 12, _>(|_| (i % base, i /= base).0);
     let coordinate = |matrix: &Vec<Vec<u32>>, i: u32, depth: u32| {

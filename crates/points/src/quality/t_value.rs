@@ -2,12 +2,12 @@
 //!
 //! The first b^m points of a net are a (t, m, s)-net if every elementary interval of volume b^(t − m) holds b^t of them: t = 0 is
 //! the best, t = m says nothing. For a digital net this is linear algebra (H. Niederreiter 1987): t = m + 1 − δ, where δ is
-//! the least number of rows d_1 + … + d_s such that the first d_j rows of the matrices are dependent together, all matrices
+//! the least number of rows `d_1 + … + d_s` such that the first `d_j` rows of the matrices are dependent together, all matrices
 //! cut to m columns.
 //!
-//! The search walks through all (d_1, …, d_s) of a smaller sum than the best found. One step adds one row to
+//! The search walks through all `(d_1, …, d_s)` of a smaller sum than the best found. One step adds one row to
 //! an echelon form, which costs at most m operations on bit masks; there are C(δ + s − 1, s) steps at the end, whatever
-//! m: milliseconds for ten dimensions, seconds for 2^20 points in thirty (A. Pirsic and W. Ch. Schmid, *Calculation of the
+//! m: milliseconds for ten dimensions, seconds for 2^20 points in thirty (G. Pirsic and W. Ch. Schmid, *Calculation of the
 //! quality parameter of digital nets and application to their construction*, J. Complexity 17, 827–839, 2001, walk likewise).
 
 use crate::Error;
@@ -135,7 +135,9 @@ impl Echelon for Digits {
                 }
                 None => {
                     let factor = inverse(digit, self.base);
-                    row.iter_mut().for_each(|x| *x = *x * factor % self.base);
+                    for x in &mut row {
+                        *x = *x * factor % self.base;
+                    }
                     self.pivots[place] = Some(row);
                     return Some(place);
                 }

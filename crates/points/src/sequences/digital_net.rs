@@ -1,6 +1,6 @@
 //! A digital net in base 2 from generating matrices of your own, with all scrambles and at the speed of `sobol`.
 //!
-//! Choose it for nets from a search or a table: those of LatNet Builder, the LDData collection, MinT, or other direction
+//! Choose it for nets from a search or a table: those of `LatNet Builder`, the `LDData` collection, `MinT`, or other direction
 //! numbers. `matrices` has one list of numbers for each dimension; number k writes column k, the digits of point 2^k, with the
 //! first digit in the most significant of `bits` bits. m columns make 2^m points, 64 an endless sequence.
 //! `quality::t_value` says how even the net is.
