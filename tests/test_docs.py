@@ -7,12 +7,12 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import points
+from evenlight import points, quality
 
 
 def public_names() -> list[tuple[str, object]]:
     """All classes and functions a user is meant to see."""
-    modules = {"evenlight": evenlight, "evenlight.points": points}
+    modules = {"evenlight": evenlight, "evenlight.points": points, "evenlight.quality": quality}
     return [
         (f"{prefix}.{name}", thing)
         for prefix, module in modules.items()
