@@ -2,7 +2,7 @@
 //!
 //! All boxes are split into cells, one coordinate after the other, such that a point that a cell leaves open is open in one
 //! coordinate only, and there are at most about √n of them in each. In such a cell the points inside a box are a sum over
-//! coordinates, and the worst box is found by dynamic programming ([`super::dem_leaf`]). There are O(n^{d/2}) cells and
+//! coordinates, and the worst box is found by dynamic programming. There are O(n^{d/2}) cells and
 //! O(n) steps in each: O(n^{1+d/2}) at the most.
 //!
 //! Here a cell whose bound is no better than a box that is already known is left out, and in the others only those

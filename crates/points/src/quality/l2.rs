@@ -15,7 +15,7 @@
 //! | [`Measure::Periodic`] | anywhere on the torus | Lev 1995 |
 //! | [`Measure::Extreme`] | anywhere | Morokoff and Caflisch 1994 |
 //!
-//! O(n² d) by [`super::pairs`], or O(n log^{d−1} n) by [`super::halves`], whichever is expected to be faster.
+//! O(n² d) by all pairs, or O(n log^{d−1} n) by divide and conquer, whichever is expected to be faster.
 
 use std::num::NonZeroUsize;
 

@@ -5,7 +5,7 @@
 //! classical algorithms (P. Bundschuh and Y. Zhu, *A method for exact calculation of the discrepancy of low-dimensional
 //! finite point sets I*, Abh. Math. Sem. Univ. Hamburg 63, 1993) take O(n²).
 //!
-//! The same sweep serves every [`Family`] of sets whose area is linear in s up to what all t have in common.
+//! The same sweep serves every family of sets whose area is linear in s up to what all t have in common.
 
 use super::kinetic::Kinetic;
 use super::{Rows, local};
