@@ -18,13 +18,17 @@ __all__ = [
     "heuristics",
     "integrators",
     "kernels",
+    "l2_discrepancy",
     "load_scene",
+    "local_discrepancy",
     "render",
     "replicate_seed",
     "samplers",
     "scrambles",
     "sensors",
     "shapes",
+    "star_discrepancy",
+    "star_discrepancy_cost",
     "t_value",
     "t_value_in_base",
     "textures",
@@ -76,6 +80,14 @@ def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: .
 
 # --- quality ---
 
+def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def l2_discrepancy(
+    x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
+) -> float: ...
+def star_discrepancy(
+    x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
+) -> tuple[float, str, list[float], float, bool, str]: ...
+def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
 def t_value(matrices: Sequence[Sequence[int]], m: int) -> int: ...
 def t_value_in_base(base: int, matrices: Sequence[Sequence[Sequence[int]]], m: int) -> int: ...
 

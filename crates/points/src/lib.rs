@@ -13,7 +13,7 @@
 //!
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
-//! * [`quality`]: how even they are;
+//! * [`quality`]: how even points are: discrepancies and their structure;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
