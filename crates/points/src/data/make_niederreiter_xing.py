@@ -1,8 +1,8 @@
 """Pack Pirsic's Niederreiter-Xing matrices, which SSJ ships, into ``niederreiter_xing.bin`` and check the result.
 
-``python make_niederreiter_xing.py`` downloads SSJ from Maven Central; a path to ``ssj-3.3.1.jar`` as argument spares the
-download. The format is described in README.md. Needs Python alone. That the matrices are what they should be is a test of
-the crate: their quality parameters are the genera of Niederreiter and Xing.
+``python make_niederreiter_xing.py`` downloads SSJ from Maven Central; a path to ``ssj-3.3.1.jar`` as argument spares
+the download. The format is described in README.md. Needs Python alone. That the matrices are what they should be is a
+test of the crate: their quality parameters are the genera of Niederreiter and Xing.
 """
 
 import hashlib
