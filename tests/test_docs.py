@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import importance, integrands, lab, points
+from evenlight import importance, integrands, lab, points, quality
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -16,6 +16,7 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight": evenlight,
         "evenlight.points": points,
         "evenlight.integrands": integrands,
+        "evenlight.quality": quality,
         "evenlight.importance": importance,
         "evenlight.lab": lab,
     }

@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import importance, integrands, lab, points
+from evenlight import importance, integrands, lab, points, quality
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -25,5 +25,6 @@ __all__ = [
     "lab",
     "load_scene",
     "points",
+    "quality",
     "render",
 ]
