@@ -35,6 +35,11 @@ def evenlight_command(tmp_path: Path) -> Run:
     return run
 
 
+def fitting_dims(name: str, d: int) -> int:
+    """As many of d dimensions as a sequence has."""
+    return min(d, next(info.most_dims for info in points.available() if info.name == name))
+
+
 def fitting_count(name: str, d: int, least: int) -> dict[str, Any]:
     """A number of points that a finite set of d dimensions can have, at least some number; nothing for sequences."""
     if not points.SEQUENCES[name].finite:

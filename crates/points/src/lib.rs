@@ -35,6 +35,8 @@ mod dyadic_pairs;
 #[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
+mod generating_matrices;
+#[cfg(feature = "std")]
 mod instruction_sets;
 #[cfg(feature = "std")]
 pub mod multi_jitter;
@@ -44,7 +46,11 @@ mod parallel;
 #[cfg(feature = "std")]
 mod point_set;
 #[cfg(feature = "std")]
-mod radical_inverse;
+mod polynomials;
+#[cfg(feature = "std")]
+mod primes;
+#[cfg(feature = "std")]
+mod radix;
 #[cfg(feature = "std")]
 pub mod scramble;
 mod seed;

@@ -11,11 +11,14 @@ from evenlight import _core
 from .correlated_multi_jittered import CorrelatedMultiJittered
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
+from .faure import Faure
 from .halton import Halton
+from .hammersley import Hammersley
 from .independent import Independent
 from .latin_hypercube import LatinHypercube
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
+from .niederreiter import Niederreiter
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
@@ -23,17 +26,21 @@ from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
 from .stratified import Stratified
 from .sz import Sz
+from .van_der_corput import VanDerCorput
 
 __all__ = [
     "SEQUENCES",
     "CorrelatedMultiJittered",
     "Dyadic",
     "Engine",
+    "Faure",
     "Halton",
+    "Hammersley",
     "Independent",
     "LatinHypercube",
     "MersenneTwister",
     "MultiJittered",
+    "Niederreiter",
     "OrthogonalArray",
     "Pcg",
     "Philox",
@@ -42,6 +49,7 @@ __all__ = [
     "Sobol",
     "Stratified",
     "Sz",
+    "VanDerCorput",
     "available",
     "build",
 ]
@@ -52,6 +60,10 @@ SEQUENCES: dict[str, type[Engine]] = {
         Sobol,
         Halton,
         Independent,
+        VanDerCorput,
+        Hammersley,
+        Faure,
+        Niederreiter,
         Dyadic,
         Sz,
         ProgressiveMultiJittered,

@@ -5,12 +5,15 @@
 
 pub mod correlated_multi_jittered;
 pub mod dyadic;
+pub mod faure;
 pub mod halton;
+pub mod hammersley;
 pub mod independent;
 pub mod latin_hypercube;
 #[cfg(feature = "generators")]
 pub mod mersenne_twister;
 pub mod multi_jittered;
+pub mod niederreiter;
 pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
@@ -19,6 +22,7 @@ pub mod progressive_multi_jittered;
 pub mod sobol;
 pub mod stratified;
 pub mod sz;
+pub mod van_der_corput;
 
 use crate::scramble::Randomization;
 use crate::{Error, PointSet, Seed};
@@ -95,6 +99,10 @@ pub static ALL: &[&Entry] = &[
     &sobol::ENTRY,
     &halton::ENTRY,
     &independent::ENTRY,
+    &van_der_corput::ENTRY,
+    &hammersley::ENTRY,
+    &faure::ENTRY,
+    &niederreiter::ENTRY,
     &dyadic::ENTRY,
     &sz::ENTRY,
     &progressive_multi_jittered::ENTRY,
