@@ -18,13 +18,17 @@ __all__ = [
     "heuristics",
     "integrators",
     "kernels",
+    "l2_discrepancy",
     "load_scene",
+    "local_discrepancy",
     "render",
     "replicate_seed",
     "samplers",
     "scrambles",
     "sensors",
     "shapes",
+    "star_discrepancy",
+    "star_discrepancy_cost",
     "textures",
     "write_exr",
     "write_png",
@@ -68,6 +72,17 @@ class PointSet:
 
 def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: ...
+
+# --- quality ---
+
+def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def l2_discrepancy(
+    x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
+) -> float: ...
+def star_discrepancy(
+    x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
+) -> tuple[float, str, list[float], float, bool, str]: ...
+def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
 
 # --- render ---
 
