@@ -36,6 +36,11 @@ def evenlight_command(tmp_path: Path) -> Run:
     return run
 
 
+def fitting_dims(name: str, d: int) -> int:
+    """As many of d dimensions as a sequence has."""
+    return min(d, next(info.most_dims for info in points.available() if info.name == name))
+
+
 def sobol_matrices(d: int) -> dict[str, Any]:
     """Sobol' points as a net of one's own: 2^20 points and 40 digits, as in crates/points/tests/examples/mod.rs."""
     kept = min(max(d, 1), 21_201)

@@ -36,6 +36,8 @@ mod dyadic_pairs;
 #[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
+mod generating_matrices;
+#[cfg(feature = "std")]
 mod instruction_sets;
 #[cfg(feature = "std")]
 pub mod multi_jitter;
@@ -45,9 +47,13 @@ mod parallel;
 #[cfg(feature = "std")]
 mod point_set;
 #[cfg(feature = "std")]
+mod polynomials;
+#[cfg(feature = "std")]
+mod primes;
+#[cfg(feature = "std")]
 pub mod quality;
 #[cfg(feature = "std")]
-mod radical_inverse;
+mod radix;
 #[cfg(feature = "std")]
 pub mod scramble;
 mod seed;

@@ -12,13 +12,16 @@ from .correlated_multi_jittered import CorrelatedMultiJittered
 from .digital_net import DigitalNet
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
+from .faure import Faure
 from .halton import Halton
+from .hammersley import Hammersley
 from .independent import Independent
 from .interlaced_sobol import InterlacedSobol
 from .latin_hypercube import LatinHypercube
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
 from .niederreiter_xing import NiederreiterXing
+from .niederreiter import Niederreiter
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
@@ -26,6 +29,7 @@ from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
 from .stratified import Stratified
 from .sz import Sz
+from .van_der_corput import VanDerCorput
 
 __all__ = [
     "SEQUENCES",
@@ -33,13 +37,16 @@ __all__ = [
     "DigitalNet",
     "Dyadic",
     "Engine",
+    "Faure",
     "Halton",
+    "Hammersley",
     "Independent",
     "InterlacedSobol",
     "LatinHypercube",
     "MersenneTwister",
     "MultiJittered",
     "NiederreiterXing",
+    "Niederreiter",
     "OrthogonalArray",
     "Pcg",
     "Philox",
@@ -48,6 +55,7 @@ __all__ = [
     "Sobol",
     "Stratified",
     "Sz",
+    "VanDerCorput",
     "available",
     "build",
 ]
@@ -61,6 +69,10 @@ SEQUENCES: dict[str, type[Engine]] = {
         NiederreiterXing,
         InterlacedSobol,
         DigitalNet,
+        VanDerCorput,
+        Hammersley,
+        Faure,
+        Niederreiter,
         Dyadic,
         Sz,
         ProgressiveMultiJittered,

@@ -10,9 +10,11 @@
 //! | `linear` | yes | the same, but with heavier tails | none, but set-up |
 //! | `linear_i_binomial` | yes | the same, with fewer random bits | none, but set-up |
 //! | `linear_striped` | yes | n⁻⁴ in one dimension | none, but set-up |
+//! | `digit_permutation` | yes | n⁻²; in base 2 the same as `digital_shift` | small |
 //! | `digital_shift` | yes | n⁻² | none |
 //! | `shift` | lattices, not nets | n⁻² | none |
 
+pub mod digit_permutation;
 pub mod digital_shift;
 pub mod linear;
 pub mod linear_i_binomial;
@@ -34,6 +36,8 @@ pub enum Randomization {
     Shift,
     /// Add the same random digits to all points: [`digital_shift`].
     DigitalShift,
+    /// Permute the digits of every place, the same way for all points: [`digit_permutation`].
+    DigitPermutation,
     /// Multiply the digits by a random lower triangular matrix, then shift them: [`linear`].
     Linear,
     /// The same, with one random digit for each column: [`linear_striped`].
@@ -68,6 +72,7 @@ pub static ALL: &[&Entry] = &[
     &none::ENTRY,
     &shift::ENTRY,
     &digital_shift::ENTRY,
+    &digit_permutation::ENTRY,
     &linear::ENTRY,
     &linear_striped::ENTRY,
     &linear_i_binomial::ENTRY,
@@ -83,6 +88,19 @@ impl Randomization {
         Self::Linear,
         Self::LinearStriped,
         Self::LinearIBinomial,
+        Self::DigitalShift,
+        Self::Shift,
+        Self::None,
+    ];
+
+    /// What a sequence in any other prime base takes, its default first.
+    pub const ANY_BASE: &'static [Self] = &[
+        Self::Owen,
+        Self::OwenExact,
+        Self::Linear,
+        Self::LinearStriped,
+        Self::LinearIBinomial,
+        Self::DigitPermutation,
         Self::DigitalShift,
         Self::Shift,
         Self::None,
@@ -108,6 +126,7 @@ impl Randomization {
             Self::None => &none::ENTRY,
             Self::Shift => &shift::ENTRY,
             Self::DigitalShift => &digital_shift::ENTRY,
+            Self::DigitPermutation => &digit_permutation::ENTRY,
             Self::Linear => &linear::ENTRY,
             Self::LinearStriped => &linear_striped::ENTRY,
             Self::LinearIBinomial => &linear_i_binomial::ENTRY,

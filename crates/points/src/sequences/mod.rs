@@ -6,7 +6,9 @@
 pub mod correlated_multi_jittered;
 pub mod digital_net;
 pub mod dyadic;
+pub mod faure;
 pub mod halton;
+pub mod hammersley;
 pub mod independent;
 pub mod interlaced_sobol;
 pub mod latin_hypercube;
@@ -14,6 +16,7 @@ pub mod latin_hypercube;
 pub mod mersenne_twister;
 pub mod multi_jittered;
 pub mod niederreiter_xing;
+pub mod niederreiter;
 pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
@@ -22,6 +25,7 @@ pub mod progressive_multi_jittered;
 pub mod sobol;
 pub mod stratified;
 pub mod sz;
+pub mod van_der_corput;
 
 use crate::scramble::Randomization;
 use crate::{Error, PointSet, Seed};
@@ -107,6 +111,10 @@ pub static ALL: &[&Entry] = &[
     &niederreiter_xing::ENTRY,
     &interlaced_sobol::ENTRY,
     &digital_net::ENTRY,
+    &van_der_corput::ENTRY,
+    &hammersley::ENTRY,
+    &faure::ENTRY,
+    &niederreiter::ENTRY,
     &dyadic::ENTRY,
     &sz::ENTRY,
     &progressive_multi_jittered::ENTRY,
