@@ -14,6 +14,8 @@
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
+//! * [`modular`]: the engine that all lattices share;
+//! * [`construction`] and [`quality`]: generating vectors of lattices, and how good they are;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
 //!
@@ -24,6 +26,8 @@
 
 #[cfg(feature = "std")]
 mod cells;
+#[cfg(feature = "std")]
+pub mod construction;
 pub mod convert;
 #[cfg(feature = "std")]
 mod counts;
@@ -37,12 +41,16 @@ mod error;
 #[cfg(feature = "std")]
 mod instruction_sets;
 #[cfg(feature = "std")]
+pub mod modular;
+#[cfg(feature = "std")]
 pub mod multi_jitter;
 pub mod owen_hash;
 #[cfg(feature = "std")]
 mod parallel;
 #[cfg(feature = "std")]
 mod point_set;
+#[cfg(feature = "std")]
+pub mod quality;
 #[cfg(feature = "std")]
 mod radical_inverse;
 #[cfg(feature = "std")]

@@ -12,6 +12,7 @@
 //! | `linear_striped` | yes | n⁻⁴ in one dimension | none, but set-up |
 //! | `digital_shift` | yes | n⁻² | none |
 //! | `shift` | lattices, not nets | n⁻² | none |
+//! | `shift_tent` | no | n⁻⁴ for lattices | none |
 
 pub mod digital_shift;
 pub mod linear;
@@ -22,6 +23,7 @@ pub mod none;
 pub mod owen;
 pub mod owen_exact;
 pub mod shift;
+pub mod shift_tent;
 
 use crate::{Error, Seed};
 
@@ -32,6 +34,8 @@ pub enum Randomization {
     None,
     /// Add the same random numbers to all points, modulo 1: [`shift`].
     Shift,
+    /// The same, then fold every coordinate: [`shift_tent`].
+    ShiftTent,
     /// Add the same random digits to all points: [`digital_shift`].
     DigitalShift,
     /// Multiply the digits by a random lower triangular matrix, then shift them: [`linear`].
@@ -55,7 +59,7 @@ pub struct Entry {
     pub name: &'static str,
     /// Where it was published.
     pub cite: &'static str,
-    /// The base-2 form: a bijection of 64-bit words.
+    /// The base-2 form: a map of 64-bit words that keeps their distribution, a bijection unless it folds.
     pub apply: fn(word: u64, key: Seed) -> u64,
     /// Whether the base-2 form is affine over {0, 1}: then it can be built into generating matrices.
     pub affine: bool,
@@ -67,6 +71,7 @@ pub struct Entry {
 pub static ALL: &[&Entry] = &[
     &none::ENTRY,
     &shift::ENTRY,
+    &shift_tent::ENTRY,
     &digital_shift::ENTRY,
     &linear::ENTRY,
     &linear_striped::ENTRY,
@@ -88,6 +93,9 @@ impl Randomization {
         Self::None,
     ];
 
+    /// What a lattice takes, its default first.
+    pub const MODULAR: &'static [Self] = &[Self::Shift, Self::ShiftTent, Self::None];
+
     /// The randomization of this name.
     ///
     /// # Errors
@@ -107,6 +115,7 @@ impl Randomization {
         match self {
             Self::None => &none::ENTRY,
             Self::Shift => &shift::ENTRY,
+            Self::ShiftTent => &shift_tent::ENTRY,
             Self::DigitalShift => &digital_shift::ENTRY,
             Self::Linear => &linear::ENTRY,
             Self::LinearStriped => &linear_striped::ENTRY,
