@@ -34,30 +34,31 @@ impl Transform {
 
     /// All characters' sums, in an order that only [`Self::inverse`] needs to know.
     pub(super) fn forward(&self, re: &mut [f64], im: &mut [f64]) {
-        if re.len() < 2 {
-            return;
+        if re.len() <= SMALL {
+            return decimate_all(re, im, &self.twiddles);
         }
         let half = re.len() / 2;
         let ([re, later_re], [im, later_im]) = (halves(re, half), halves(im, half));
-        let [cos, sin] = &self.twiddles[half.ilog2() as usize];
-        decimate([re, im], [later_re, later_im], [cos, sin]);
+        decimate([re, im], [later_re, later_im], &self.twiddles[half.ilog2() as usize]);
         self.forward(re, im);
         self.forward(later_re, later_im);
     }
 
     /// Undoes [`Self::forward`], but for a factor: the order of the group.
     pub(super) fn inverse(&self, re: &mut [f64], im: &mut [f64]) {
-        if re.len() < 2 {
-            return;
+        if re.len() <= SMALL {
+            return combine_all(re, im, &self.twiddles);
         }
         let half = re.len() / 2;
         let ([re, later_re], [im, later_im]) = (halves(re, half), halves(im, half));
         self.inverse(re, im);
         self.inverse(later_re, later_im);
-        let [cos, sin] = &self.twiddles[half.ilog2() as usize];
-        combine([re, im], [later_re, later_im], [cos, sin]);
+        combine([re, im], [later_re, later_im], &self.twiddles[half.ilog2() as usize]);
     }
 }
+
+/// The elements whose numbers stay in a first-level cache until they are done.
+const SMALL: usize = 1 << 10;
 
 fn halves(numbers: &mut [f64], half: usize) -> [&mut [f64]; 2] {
     numbers.split_at_mut(half).into()
@@ -75,11 +76,26 @@ fn turn(bit: u32, low: u64, carry: Carry) -> f64 {
 
 for_this_machine! {
     /// Sums to the first half; differences, twiddled, to the second.
-    decimate = decimate_body(first: [&mut [f64]; 2], second: [&mut [f64]; 2], twiddles: [&[f64]; 2])
+    decimate = decimate_body(first: [&mut [f64]; 2], second: [&mut [f64]; 2], twiddles: &Complex)
+}
+
+for_this_machine! {
+    /// Undoes [`decimate`], but for a factor of 2.
+    combine = combine_body(first: [&mut [f64]; 2], second: [&mut [f64]; 2], twiddles: &Complex)
+}
+
+for_this_machine! {
+    /// [`decimate`], and the same with both halves, down to single numbers.
+    decimate_all = decimate_all_body(re: &mut [f64], im: &mut [f64], twiddles: &[Complex])
+}
+
+for_this_machine! {
+    /// Undoes [`decimate_all`], but for a factor.
+    combine_all = combine_all_body(re: &mut [f64], im: &mut [f64], twiddles: &[Complex])
 }
 
 #[inline(always)]
-fn decimate_body([re, im]: [&mut [f64]; 2], [later_re, later_im]: [&mut [f64]; 2], [cos, sin]: [&[f64]; 2]) {
+fn decimate_body([re, im]: [&mut [f64]; 2], [later_re, later_im]: [&mut [f64]; 2], [cos, sin]: &Complex) {
     let seconds = later_re.iter_mut().zip(later_im);
     for (((a, b), (c, d)), (cos, sin)) in re.iter_mut().zip(im).zip(seconds).zip(cos.iter().zip(sin)) {
         let (x, y) = (*a - *c, *b - *d);
@@ -88,18 +104,52 @@ fn decimate_body([re, im]: [&mut [f64]; 2], [later_re, later_im]: [&mut [f64]; 2
     }
 }
 
-for_this_machine! {
-    /// Undoes [`decimate`], but for a factor of 2.
-    combine = combine_body(first: [&mut [f64]; 2], second: [&mut [f64]; 2], twiddles: [&[f64]; 2])
-}
-
 #[inline(always)]
-fn combine_body([re, im]: [&mut [f64]; 2], [later_re, later_im]: [&mut [f64]; 2], [cos, sin]: [&[f64]; 2]) {
+fn combine_body([re, im]: [&mut [f64]; 2], [later_re, later_im]: [&mut [f64]; 2], [cos, sin]: &Complex) {
     let seconds = later_re.iter_mut().zip(later_im);
     for (((a, b), (c, d)), (cos, sin)) in re.iter_mut().zip(im).zip(seconds).zip(cos.iter().zip(sin)) {
         let (x, y) = (*c * cos + *d * sin, *d * cos - *c * sin);
         (*c, *d) = (*a - x, *b - y);
         (*a, *b) = (*a + x, *b + y);
+    }
+}
+
+#[inline(always)]
+fn decimate_all_body(re: &mut [f64], im: &mut [f64], twiddles: &[Complex]) {
+    for (bit, twiddles) in twiddles.iter().enumerate().take(re.len().ilog2() as usize).rev() {
+        in_blocks(bit, re, im, |first, second| decimate_body(first, second, twiddles));
+    }
+}
+
+#[inline(always)]
+fn combine_all_body(re: &mut [f64], im: &mut [f64], twiddles: &[Complex]) {
+    for (bit, twiddles) in twiddles.iter().enumerate().take(re.len().ilog2() as usize) {
+        in_blocks(bit, re, im, |first, second| combine_body(first, second, twiddles));
+    }
+}
+
+/// Calls `work` for the halves of every block of 2^(bit + 1) elements; the compiler unrolls the loops of small blocks.
+#[inline(always)]
+fn in_blocks(bit: usize, re: &mut [f64], im: &mut [f64], work: impl Fn([&mut [f64]; 2], [&mut [f64]; 2])) {
+    match bit {
+        0 => in_blocks_of(1, re, im, work),
+        1 => in_blocks_of(2, re, im, work),
+        2 => in_blocks_of(4, re, im, work),
+        3 => in_blocks_of(8, re, im, work),
+        _ => in_blocks_of(1 << bit, re, im, work),
+    }
+}
+
+#[inline(always)]
+fn in_blocks_of(
+    half: usize,
+    re: &mut [f64],
+    im: &mut [f64],
+    work: impl Fn([&mut [f64]; 2], [&mut [f64]; 2]),
+) {
+    for (re, im) in re.chunks_exact_mut(2 * half).zip(im.chunks_exact_mut(2 * half)) {
+        let ([re, later_re], [im, later_im]) = (halves(re, half), halves(im, half));
+        work([re, im], [later_re, later_im]);
     }
 }
 
