@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import points
+from evenlight import points, quality
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate

@@ -8,17 +8,23 @@ from typing import Any, NamedTuple, SupportsIndex
 
 from evenlight import _core
 
+from .construction import construct_korobov, construct_lattice, construct_polynomial_lattice
 from .correlated_multi_jittered import CorrelatedMultiJittered
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
+from .fibonacci import Fibonacci
 from .halton import Halton
 from .independent import Independent
+from .korobov import Korobov
+from .kronecker import Kronecker
 from .latin_hypercube import LatinHypercube
+from .lattice import Lattice
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
+from .polynomial_lattice import PolynomialLattice
 from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
 from .stratified import Stratified
@@ -29,14 +35,19 @@ __all__ = [
     "CorrelatedMultiJittered",
     "Dyadic",
     "Engine",
+    "Fibonacci",
     "Halton",
     "Independent",
+    "Korobov",
+    "Kronecker",
     "LatinHypercube",
+    "Lattice",
     "MersenneTwister",
     "MultiJittered",
     "OrthogonalArray",
     "Pcg",
     "Philox",
+    "PolynomialLattice",
     "ProgressiveMultiJittered",
     "SequenceInfo",
     "Sobol",
@@ -44,6 +55,9 @@ __all__ = [
     "Sz",
     "available",
     "build",
+    "construct_korobov",
+    "construct_lattice",
+    "construct_polynomial_lattice",
 ]
 
 SEQUENCES: dict[str, type[Engine]] = {
@@ -55,6 +69,11 @@ SEQUENCES: dict[str, type[Engine]] = {
         Dyadic,
         Sz,
         ProgressiveMultiJittered,
+        Lattice,
+        PolynomialLattice,
+        Kronecker,
+        Korobov,
+        Fibonacci,
         LatinHypercube,
         OrthogonalArray,
         Stratified,

@@ -7,7 +7,7 @@
 
 use super::levels::Levels;
 use crate::Error;
-use crate::quality::lattice_criteria::{Space, check};
+use crate::quality::lattice_criteria::{Space, check, wrong};
 
 /// The most points of a lattice that can be constructed.
 pub const MOST: u64 = 1 << 28;
@@ -34,11 +34,11 @@ pub const MOST_POLYNOMIAL: u64 = 1 << 24;
 pub fn lattice(n: u64, least: Option<u64>, weights: &[f64], space: Space) -> Result<Vec<u64>, Error> {
     check(&vec![1; weights.len()], n, weights, space)?;
     if space == Space::Walsh {
-        return Err(wrong("space", "Walsh".into(), "Sobolev or Korobov"));
+        return Err(wrong("space", "Walsh", "Sobolev or Korobov"));
     }
     let power = n.is_power_of_two() && n > 1;
     if n > MOST || !(power || n > 2 && (2..=n.isqrt()).all(|divisor| !n.is_multiple_of(divisor))) {
-        return Err(wrong("n", n.to_string(), &format!("prime or a power of 2, from 2 to {MOST}")));
+        return Err(wrong("n", &n.to_string(), &format!("prime or a power of 2, from 2 to {MOST}")));
     }
     let levels = if power { Levels::powers_of_two(n.ilog2(), space) } else { Levels::prime(n, space) };
     let first = first_level(least, n, power, levels.top())?;
@@ -55,7 +55,7 @@ pub fn lattice(n: u64, least: Option<u64>, weights: &[f64], space: Space) -> Res
 pub fn polynomial_lattice(n: u64, least: Option<u64>, weights: &[f64]) -> Result<Vec<u64>, Error> {
     check(&vec![1; weights.len()], n, weights, Space::Walsh)?;
     if !n.is_power_of_two() || !(2..=MOST_POLYNOMIAL).contains(&n) {
-        return Err(wrong("n", n.to_string(), &format!("a power of 2 from 2 to {MOST_POLYNOMIAL}")));
+        return Err(wrong("n", &n.to_string(), &format!("a power of 2 from 2 to {MOST_POLYNOMIAL}")));
     }
     let levels = Levels::polynomials(n.ilog2());
     let first = first_level(least, n, true, levels.top())?;
@@ -70,14 +70,10 @@ fn first_level(least: Option<u64>, n: u64, power: bool, top: usize) -> Result<us
         }
         Some(least) => Err(wrong(
             "least",
-            least.to_string(),
+            &least.to_string(),
             &format!("a power of 2 from 2 to n, which is one too; n is {n}"),
         )),
     }
-}
-
-fn wrong(option: &'static str, asked: String, allowed: &str) -> Error {
-    Error::Option { sequence: "lattice", option, asked, allowed: allowed.into() }
 }
 
 /// A lattice that grows by one coordinate after the other.

@@ -91,7 +91,11 @@ pub fn squared_error_of_net(rows: &[f64], weights: &[f64]) -> Result<f64, Error>
     let dims = weights.len();
     check(&vec![1; dims], 1, weights, Space::Walsh)?;
     if rows.is_empty() || rows.len() % dims != 0 {
-        return Err(wrong("rows", rows.len().to_string(), format!("points of {dims} coordinates")));
+        return Err(wrong(
+            "rows",
+            &format!("{} numbers", rows.len()),
+            &format!("points of {dims} coordinates"),
+        ));
     }
     let excess = |row: &[f64]| {
         product_excess(row.iter().zip(weights).map(|(&x, weight)| weight * Space::Walsh.omega(x)))
@@ -122,23 +126,23 @@ fn add_modulo(a: u64, b: u64, n: u64) -> u64 {
 /// Refuses what has no error.
 pub(crate) fn check(z: &[u64], n: u64, weights: &[f64], space: Space) -> Result<(), Error> {
     if n == 0 {
-        return Err(wrong("n", "0".into(), "at least 1".into()));
+        return Err(wrong("n", "0", "at least 1"));
     }
     if let Space::Korobov(alpha) = space
         && ![2, 4, 6].contains(&alpha)
     {
-        return Err(wrong("smoothness", alpha.to_string(), "2, 4 or 6".into()));
+        return Err(wrong("smoothness", &alpha.to_string(), "2, 4 or 6"));
     }
     if z.is_empty() || z.len() != weights.len() {
         let allowed = format!("one for each of {} coordinates, of which there is at least one", z.len());
-        return Err(wrong("weights", format!("{} numbers", weights.len()), allowed));
+        return Err(wrong("weights", &format!("{} numbers", weights.len()), &allowed));
     }
     match weights.iter().find(|weight| !(weight.is_finite() && **weight >= 0.0)) {
-        Some(weight) => Err(wrong("weights", weight.to_string(), "finite and not negative".into())),
+        Some(weight) => Err(wrong("weights", &weight.to_string(), "finite and not negative")),
         None => Ok(()),
     }
 }
 
-fn wrong(option: &'static str, asked: String, allowed: String) -> Error {
-    Error::Option { sequence: "lattice", option, asked, allowed }
+pub(crate) fn wrong(name: &str, asked: &str, allowed: &str) -> Error {
+    Error::Quality(format!("{name} must be {allowed}, not {asked}"))
 }

@@ -24,7 +24,7 @@ pub(super) const ENTRY: Entry = Entry {
            28, 2162-2188 (2006)",
     accepts: Randomization::MODULAR,
     takes: &["n", "generator"],
-    most_dims: 1 << 16,
+    most_dims: LATTICE_DIMS,
     build,
 };
 
@@ -55,9 +55,6 @@ fn vector(spec: &Spec, n: Option<u64>) -> Result<Vec<u64>, Error> {
         Err(Error::Option { sequence: "lattice", option: "generator", asked, allowed })
     };
     match (&spec.options.generator, n) {
-        (None, _) if spec.dims > LATTICE_DIMS => {
-            wrong("nothing".into(), format!("given in more than {LATTICE_DIMS} dimensions"))
-        }
         (None, Some(n)) if !n.is_power_of_two() => {
             let near = [Some(n.next_power_of_two() / 2), Some(n.next_power_of_two())];
             Err(wrong_count("lattice", n, "a power of 2 if no generator is given", near, MOST))

@@ -4,9 +4,10 @@
 //! for polynomials q_j over {0, 1}. The first 2^m points are the polynomial lattice modulo x^m, for every m: take powers of 2 of
 //! them. They run on the engine of all nets, with all its randomizations; `owen` gives smooth functions the rate n^-3/2.
 //!
-//! The default polynomials are our own, embedded from 2^8 to 2^18 points for product weights 1/j²; the option
-//! `generator` takes others, bit i the coefficient of x^i, bit 0 set, such as those of
-//! [`crate::construction::polynomial_lattice`]. For problems whose first coordinates matter most; else take `sobol`.
+//! The option `generator` takes the polynomials, bit i the coefficient of x^i, bit 0 set: those of
+//! [`crate::construction::polynomial_lattice`], made for the weights of a problem and one number of points, are better
+//! than `sobol` in that criterion (by a fifth in 100 dimensions with weights 1/j², the squared error). The default ones
+//! are a compromise for 2^8 to 2^18 points and these weights, which `sobol` is not worse than: for trying things out.
 
 use super::{Entry, Spec};
 use crate::data::generating_vectors::{POLYNOMIAL_DIMS, polynomial};
@@ -21,7 +22,7 @@ pub(super) const ENTRY: Entry = Entry {
            with small weighted star discrepancy, Math. Comp. 76, 2077-2085 (2007)",
     accepts: Randomization::BASE_2,
     takes: &["generator"],
-    most_dims: 1 << 16,
+    most_dims: POLYNOMIAL_DIMS,
     build,
 };
 
@@ -41,9 +42,6 @@ fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
         Err(Error::Option { sequence: "polynomial_lattice", option: "generator", asked, allowed })
     };
     let polynomials = match &spec.options.generator {
-        None if spec.dims > POLYNOMIAL_DIMS => {
-            return wrong("nothing".into(), format!("given in more than {POLYNOMIAL_DIMS} dimensions"));
-        }
         None => (0..spec.dims).map(default_polynomial).collect(),
         Some(given) if given.len() != spec.dims => {
             return wrong(format!("{} numbers", given.len()), format!("{} numbers", spec.dims));
