@@ -22,14 +22,18 @@ __all__ = [
     "heuristics",
     "integrators",
     "kernels",
+    "l2_discrepancy",
     "lattice_error",
     "load_scene",
+    "local_discrepancy",
     "render",
     "replicate_seed",
     "samplers",
     "scrambles",
     "sensors",
     "shapes",
+    "star_discrepancy",
+    "star_discrepancy_cost",
     "textures",
     "write_exr",
     "write_png",
@@ -87,6 +91,17 @@ def lattice_error(
     generator: Sequence[int], n: int, weights: Sequence[float], space_name: str, smoothness: int
 ) -> float: ...
 def digital_net_error(x: NDArray[np.float64], weights: Sequence[float]) -> float: ...
+
+# --- quality ---
+
+def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def l2_discrepancy(
+    x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
+) -> float: ...
+def star_discrepancy(
+    x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
+) -> tuple[float, str, list[float], float, bool, str]: ...
+def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
 
 # --- render ---
 

@@ -13,6 +13,7 @@
 //!
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
+//! * [`quality`]: how even points are: discrepancies and their structure;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
 //! * [`modular`]: the engine that all lattices share;
 //! * [`construction`] and [`quality`]: generating vectors of lattices, and how good they are;

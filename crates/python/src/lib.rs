@@ -7,6 +7,7 @@ mod families;
 mod lattices;
 mod output;
 mod points;
+mod quality;
 mod render;
 
 use pyo3::prelude::*;
@@ -19,5 +20,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     lattices::register(module)?;
     output::register(module)?;
     points::register(module)?;
+    quality::register(module)?;
     render::register(module)
 }
