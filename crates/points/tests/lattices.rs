@@ -156,7 +156,7 @@ fn rmse(randomization: Randomization, m: u32, f: impl Fn(&[f64]) -> f64, truth: 
     (squares.sum::<f64>() / 64.0).sqrt()
 }
 
-/// Slopes between 2^6 and 2^14 points of Π (1 + (e^x_j − e + 1) / (2 j²)), smooth and not periodic. An error of 64
+/// Slopes between 2^6 and 2^14 points of Π (1 + (e^x − e + 1) / (2 j²)), smooth and not periodic. An error of 64
 /// replicates is known to 10 %, a slope over 8 doublings to 0.03; theory gives −1 and −2 up to powers of log n.
 #[test]
 fn the_tent_doubles_the_rate_for_smooth_integrands() {

@@ -107,8 +107,10 @@ def construct_polynomial_lattice(
 
     Notes
     -----
-    In time d n log n, as for `construct_lattice`. References: J. Dick, F. Y. Kuo, F. Pillichshammer and I. H. Sloan, Math.
-    Comp. 74, 1895-1921 (2005); J. Dick and F. Pillichshammer, J. Complexity 21, 149-195 (2005).
+    In time d n log n, as for `construct_lattice`.
+
+    References: J. Dick, F. Y. Kuo, F. Pillichshammer and I. H. Sloan, Math. Comp. 74, 1895-1921 (2005); J. Dick and F.
+    Pillichshammer, J. Complexity 21, 149-195 (2005).
 
     Examples
     --------

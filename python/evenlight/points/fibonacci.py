@@ -6,7 +6,7 @@ __all__ = ["Fibonacci"]
 
 
 class Fibonacci(Engine):
-    """Fibonacci lattices: row i is (i / n, i m / n modulo 1), n and m two neighbors of 1, 2, 3, 5, 8, 13, …
+    """Fibonacci lattices: row i is (i / n, i m / n modulo 1), with neighbors n and m of 1, 2, 3, 5, 8, and so on.
 
     For two dimensions and a fixed number of points. For any number of them take `Kronecker`, for more dimensions
     `Lattice`.

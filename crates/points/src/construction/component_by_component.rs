@@ -127,7 +127,7 @@ fn construct(levels: &Levels, first: usize, weights: &[f64]) -> Vec<u64> {
     let top = levels.top();
     // The best lattices of each size, and in a range also the one that is embedded, which is the last.
     let mut lattices: Vec<_> = (first..=top).map(|level| Growing::new(levels, level)).collect();
-    let embedded = (first < top).then(|| lattices.len());
+    let embedded = (first < top).then_some(lattices.len());
     lattices.extend(embedded.map(|_| Growing::new(levels, top)));
     let one = |(dim, &weight): (usize, &f64)| {
         let mut chosen = choose(levels, &mut lattices, (first, embedded), weight);

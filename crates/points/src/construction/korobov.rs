@@ -18,7 +18,7 @@ pub fn powers(a: u64, n: u64, dims: usize) -> Vec<u64> {
 /// # Errors
 /// If `n` is 0, or the weights are none, negative or not finite.
 pub fn search(n: u64, weights: &[f64], space: Space, candidates: u64) -> Result<u64, Error> {
-    let all = n / 2 + 1 <= candidates;
+    let all = n / 2 < candidates;
     let numbers = if all { 1..n / 2 + 2 } else { 0..u64::MAX };
     let tried = numbers
         .map(|i| if all { i } else { mix(n.wrapping_add(i)) % n })

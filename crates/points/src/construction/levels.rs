@@ -14,7 +14,7 @@ use crate::quality::lattice_criteria::Space;
 #[derive(Debug)]
 pub(super) struct Levels {
     group: Group,
-    levels: Vec<Level>,
+    all: Vec<Level>,
     /// Elements of the group of the last level.
     units: Vec<u32>,
     transform: Transform,
@@ -81,12 +81,12 @@ impl Levels {
         transform: Transform,
         (space, sizes): (Space, Vec<(u64, usize, f64)>),
     ) -> Self {
-        let mut levels = Self { group, levels: vec![], units, transform };
+        let mut levels = Self { group, all: vec![], units, transform };
         for (n, size, multiplicity) in sizes {
             let place = |unit: &u32| if n == 1 { 0.0 } else { (u64::from(*unit) % n) as f64 / n as f64 };
             let omega: Vec<_> = levels.units[..size].iter().map(|unit| space.omega(place(unit))).collect();
             let spectrum = levels.spectrum(&omega);
-            levels.levels.push(Level { n, multiplicity, omega, spectrum });
+            levels.all.push(Level { n, multiplicity, omega, spectrum });
         }
         levels
     }
@@ -110,17 +110,17 @@ impl Levels {
 
     /// The last level.
     pub(super) fn top(&self) -> usize {
-        self.levels.len() - 1
+        self.all.len() - 1
     }
 
     /// The number of points of the lattice that ends with this level.
     pub(super) fn points(&self, level: usize) -> u64 {
-        self.levels[level].n
+        self.all[level].n
     }
 
     /// The number of candidates that this level tells apart.
     pub(super) fn size(&self, level: usize) -> usize {
-        self.levels[level].omega.len()
+        self.all[level].omega.len()
     }
 
     /// The generator of a candidate; the smaller of two that differ in sign.
@@ -131,7 +131,7 @@ impl Levels {
 
     /// For two functions on the points of a level: the sums of function times ω, moved by every candidate.
     pub(super) fn correlate(&self, level: usize, functions: [&[f64]; 2]) -> [Vec<f64>; 2] {
-        let Level { multiplicity, omega, spectrum, .. } = &self.levels[level];
+        let Level { multiplicity, omega, spectrum, .. } = &self.all[level];
         if omega.len() == 1 {
             return functions.map(|function| vec![multiplicity * function[0] * omega[0]]);
         }
@@ -153,7 +153,7 @@ impl Levels {
 
     /// Multiplies a function on the points of a level by 1 + γ ω, moved by a candidate.
     pub(super) fn multiply(&self, level: usize, candidate: usize, weight: f64, function: &mut [f64]) {
-        let omega = &self.levels[level].omega;
+        let omega = &self.all[level].omega;
         let candidate = candidate % omega.len();
         if self.group != Group::Polynomials {
             let (before, after) = omega.split_at(candidate);

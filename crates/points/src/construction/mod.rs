@@ -8,8 +8,8 @@
 //! reproducing kernel Hilbert spaces*, Math. Comp. 75, 903-920, 2006).
 //!
 //! * [`component_by_component`]: the algorithm, for one n or embedded in many;
-//! * [`levels`]: the groups of n = 2^m, of n prime, and of polynomials;
-//! * [`transform`]: the characters of those groups;
+//! * `levels`: the groups of n = 2^m, of n prime, and of polynomials;
+//! * `transform`: the characters of those groups;
 //! * [`korobov`]: the search for a Korobov lattice.
 
 pub mod component_by_component;

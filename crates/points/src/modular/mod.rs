@@ -1,8 +1,7 @@
 //! The engine of all lattices and Kronecker sequences: one number for each coordinate in, shifted points out.
 //!
 //! Every bit k of the index adds a word c(k, j) to coordinate j, modulo 2^64, which is addition of coordinates
-//! modulo 1. In *natural* order c(k, j) is {2^k α_j}, and point i is {i α}. In *radical* order c(k, j) is z_j 2^(63 - k),
-//! and point i is {φ(i) z}, φ the radical inverse in base 2: the first 2^m points are the lattice of 2^m points, whatever
+//! modulo 1. In *natural* order it is {2^k α} and point i is {i α}; in *radical* order it is 2^(63 - k) z and point i is {φ(i) z}, φ the radical inverse in base 2: the first 2^m points are the lattice of 2^m points, whatever
 //! m (F. J. Hickernell, H. S. Hong, P. L'Ecuyer and C. Lemieux, *Extensible lattice sequences for quasi-Monte Carlo
 //! quadrature*, SIAM J. Sci. Comput. 22, 1117-1138, 2000).
 //!

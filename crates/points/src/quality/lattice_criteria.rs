@@ -1,11 +1,11 @@
 //! How good a lattice is: squared worst-case errors in weighted spaces of functions, with product weights γ.
 //!
-//! All have the form e² = −1 + (1/n) Σ_k Π_j (1 + γ_j ω(x_kj)), a sum over the points of the lattice:
+//! All have the form e² = −1 + (1/n) Σ Π (1 + γ ω(x)), a sum over the points and a product over the coordinates x:
 //!
 //! * *Sobolev*: the mean square over random shifts of the worst-case error in the unanchored Sobolev space of mixed first
 //!   derivatives; ω(x) = x² − x + 1/6 (I. H. Sloan, F. Y. Kuo and S. Joe, *Constructing randomly shifted lattice rules
 //!   in weighted Sobolev spaces*, SIAM J. Numer. Anal. 40, 1650-1665, 2002);
-//! * *Korobov*: the weighted P_α of periodic functions; ω(x) = Σ_{h ≠ 0} exp(2πihx) / |h|^α, which is a Bernoulli
+//! * *Korobov*: the weighted `P_α` of periodic functions; ω(x) is the sum of exp(2πihx) / |h|^α over h ≠ 0, which is a Bernoulli
 //!   polynomial for α = 2, 4, 6 (I. H. Sloan and S. Joe, *Lattice methods for multiple integration*, 1994);
 //! * *Walsh*: for polynomial lattices, the mean square over digital shifts in the same Sobolev space;
 //!   ω(x) = 1/6 − 2^(⌊log₂ x⌋ − 1) (J. Dick and F. Pillichshammer, *Multivariate integration in weighted Hilbert spaces based
@@ -90,7 +90,7 @@ pub fn squared_error(z: &[u64], n: u64, weights: &[f64], space: Space) -> Result
 pub fn squared_error_of_net(rows: &[f64], weights: &[f64]) -> Result<f64, Error> {
     let dims = weights.len();
     check(&vec![1; dims], 1, weights, Space::Walsh)?;
-    if rows.is_empty() || rows.len() % dims != 0 {
+    if rows.is_empty() || !rows.len().is_multiple_of(dims) {
         return Err(wrong(
             "rows",
             &format!("{} numbers", rows.len()),

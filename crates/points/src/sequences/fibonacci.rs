@@ -1,6 +1,6 @@
 //! Fibonacci lattices: the best lattices of the plane.
 //!
-//! n is the Fibonacci number F_k and point i is (i / n, {i F_(k-1) / n}). For two dimensions and a fixed number of points;
+//! n is a Fibonacci number, m the one before, and point i is (i / n, {i m / n}). For two dimensions and a fixed number of points;
 //! for any number of points take `kronecker`, for more dimensions `lattice`.
 
 use super::{Entry, Spec};

@@ -1,9 +1,9 @@
 //! Kronecker sequences {i α}: any number of points, in natural order, at the speed of memory.
 //!
-//! By default the R_d sequence of M. Roberts: α_j = φ^-j with φ > 1 and φ^(d+1) = φ + 1, the golden ratio in one
+//! By default the sequence `R_d` of M. Roberts: number j of α is φ^-j, with φ > 1 and φ^(d+1) = φ + 1, the golden ratio in one
 //! dimension. Good in few dimensions, and at any number of points, not only at powers of something; its numbers
-//! depend on d. Beyond some ten dimensions take `lattice` or `sobol`. The option `generator` has other α_j, as integers
-//! ⌊2^64 α_j⌋; irrational numbers that are badly approximable together are good ones.
+//! depend on d. Beyond some ten dimensions take `lattice` or `sobol`. The option `generator` has other α, as integers
+//! ⌊2^64 α⌋; irrational numbers that are badly approximable together are good ones.
 //!
 //! α has 128 digits (64, if given), so that nothing drifts: the last of 2^64 points is as exact as the first.
 

@@ -1,7 +1,7 @@
 //! Polynomial lattices in base 2, extensible: nets whose matrices are made for given weights.
 //!
-//! What lattices are for shifts modulo 1, these are for digits: point i is φ(i) q_j, a product without carry modulo 1,
-//! for polynomials q_j over {0, 1}. The first 2^m points are the polynomial lattice modulo x^m, for every m: take powers of 2 of
+//! What lattices are for shifts modulo 1, these are for digits: point i is φ(i) q, a product without carry modulo 1,
+//! for polynomials q over {0, 1}. The first 2^m points are the polynomial lattice modulo x^m, for every m: take powers of 2 of
 //! them. They run on the engine of all nets, with all its randomizations; `owen` gives smooth functions the rate n^-3/2.
 //!
 //! The option `generator` takes the polynomials, bit i the coefficient of x^i, bit 0 set: those of
