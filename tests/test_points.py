@@ -119,7 +119,7 @@ def test_scipy_integrates_with_it(name: str, settings: dict[str, Any]) -> None:
         return product
 
     sequence = engine(name, settings, least=1024)
-    d, n = sequence.d, sequence.n if name in IN_NATURAL_ORDER else 1024
+    d, n = sequence.d, (sequence.n or 0) if name in IN_NATURAL_ORDER else 1024
     found = qmc_quad(f, np.zeros(d), np.ones(d), n_points=n, n_estimates=8, qrng=sequence)
     assert found.integral == pytest.approx(1, abs=max(6 * found.standard_error, 0.02))
     if settings.get("scramble") != "none":
