@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from conftest import ROOT
+from conftest import ROOT, sobol_matrices
 from evenlight import points
 
 # As in crates/points/tests/examples/mod.rs.
@@ -19,6 +19,7 @@ GOLDEN: dict[str, dict[str, Any]] = {
     "mersenne_twister": {"n": 5000},
     "fibonacci": {"n": 1597},
     "korobov": {"n": 1021},
+    "digital_net": sobol_matrices(40),
 }
 
 MOST_DIMS = {info.name: info.most_dims for info in points.available()}

@@ -17,7 +17,9 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(l2_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(local_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(star_discrepancy, module)?)?;
-    module.add_function(wrap_pyfunction!(star_discrepancy_cost, module)?)
+    module.add_function(wrap_pyfunction!(star_discrepancy_cost, module)?)?;
+    module.add_function(wrap_pyfunction!(t_value, module)?)?;
+    module.add_function(wrap_pyfunction!(t_value_in_base, module)?)
 }
 
 /// Points, one in a row.
@@ -135,4 +137,16 @@ fn l2_discrepancy(
     let measure = Measure::named(measure).map_err(raise)?;
     let request = Request { measure, weights: weights.as_deref(), algorithm, workers };
     py.detach(|| l2::l2_discrepancy(&x, &request)).map_err(raise)
+}
+
+/// The quality parameter of a net in base 2, from the columns of its matrices.
+#[pyfunction]
+fn t_value(py: Python<'_>, matrices: Vec<Vec<u64>>, m: u32) -> PyResult<u32> {
+    py.detach(|| quality::t_value(&matrices, m)).map_err(raise)
+}
+
+/// The quality parameter of a net in a prime base, from the rows of digits of its matrices.
+#[pyfunction]
+fn t_value_in_base(py: Python<'_>, base: u32, matrices: Vec<Vec<Vec<u32>>>, m: u32) -> PyResult<u32> {
+    py.detach(|| quality::t_value_in_base(base, &matrices, m)).map_err(raise)
 }

@@ -10,17 +10,20 @@ from evenlight import _core
 
 from .construction import construct_korobov, construct_lattice, construct_polynomial_lattice
 from .correlated_multi_jittered import CorrelatedMultiJittered
+from .digital_net import DigitalNet
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
 from .fibonacci import Fibonacci
 from .halton import Halton
 from .independent import Independent
+from .interlaced_sobol import InterlacedSobol
 from .korobov import Korobov
 from .kronecker import Kronecker
 from .latin_hypercube import LatinHypercube
 from .lattice import Lattice
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
+from .niederreiter_xing import NiederreiterXing
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
@@ -33,17 +36,20 @@ from .sz import Sz
 __all__ = [
     "SEQUENCES",
     "CorrelatedMultiJittered",
+    "DigitalNet",
     "Dyadic",
     "Engine",
     "Fibonacci",
     "Halton",
     "Independent",
+    "InterlacedSobol",
     "Korobov",
     "Kronecker",
     "LatinHypercube",
     "Lattice",
     "MersenneTwister",
     "MultiJittered",
+    "NiederreiterXing",
     "OrthogonalArray",
     "Pcg",
     "Philox",
@@ -66,6 +72,9 @@ SEQUENCES: dict[str, type[Engine]] = {
         Sobol,
         Halton,
         Independent,
+        NiederreiterXing,
+        InterlacedSobol,
+        DigitalNet,
         Dyadic,
         Sz,
         ProgressiveMultiJittered,

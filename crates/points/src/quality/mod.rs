@@ -5,9 +5,10 @@
 //! * the algorithms behind it: [`sweep`] (one and two dimensions), [`dem`] (exact, more dimensions),
 //!   [`threshold_accepting`] (lower bounds), [`bracketing`] (upper bounds);
 //! * [`l2`]: mean squares instead of the largest error;
-//! * [`lattice_criteria`]: worst-case errors of lattices and nets in weighted spaces of functions.
+//! * [`lattice_criteria`]: worst-case errors of lattices and nets in weighted spaces of functions;
+//! * [`t_value`](mod@t_value): the quality parameter of a digital net, from its matrices.
 //!
-//! All measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
+//! All but the last two measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
 
 pub mod bracketing;
 mod cuts;
@@ -23,6 +24,8 @@ mod rows;
 mod shapes;
 pub mod star;
 pub mod sweep;
+pub mod t_value;
 pub mod threshold_accepting;
 
 pub use rows::Rows;
+pub use t_value::{t_value, t_value_in_base};
