@@ -64,4 +64,9 @@ def fitting_count(name: str, d: int, least: int) -> dict[str, Any]:
         while side**2 < least or side + 1 < d or any(side % divisor == 0 for divisor in range(2, side)):
             side += 1
         return {"n": side**2}
+    if name == "fibonacci":
+        before, last = 1, 1
+        while last < least:
+            before, last = last, before + last
+        return {"n": last}
     return {"n": least}

@@ -18,6 +18,8 @@ GOLDEN: dict[str, dict[str, Any]] = {
     "orthogonal_array": {"n": 41**2},
     "stratified": {"n": 1},
     "mersenne_twister": {"n": 5000},
+    "fibonacci": {"n": 1597},
+    "korobov": {"n": 1021},
     "digital_net": sobol_matrices(40),
 }
 

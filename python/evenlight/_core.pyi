@@ -13,12 +13,17 @@ __all__ = [
     "available_sequences",
     "bsdfs",
     "check_writable",
+    "construct_korobov",
+    "construct_lattice",
+    "construct_polynomial_lattice",
+    "digital_net_error",
     "emitters",
     "filters",
     "heuristics",
     "integrators",
     "kernels",
     "l2_discrepancy",
+    "lattice_error",
     "load_scene",
     "local_discrepancy",
     "render",
@@ -77,6 +82,18 @@ class PointSet:
 
 def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: ...
+
+# --- lattices ---
+
+def construct_lattice(
+    n: int, least: int | None, weights: Sequence[float], space_name: str, smoothness: int
+) -> list[int]: ...
+def construct_polynomial_lattice(n: int, least: int | None, weights: Sequence[float]) -> list[int]: ...
+def construct_korobov(n: int, weights: Sequence[float], space_name: str, smoothness: int, candidates: int) -> int: ...
+def lattice_error(
+    generator: Sequence[int], n: int, weights: Sequence[float], space_name: str, smoothness: int
+) -> float: ...
+def digital_net_error(x: NDArray[np.float64], weights: Sequence[float]) -> float: ...
 
 # --- quality ---
 

@@ -15,6 +15,8 @@
 //! * [`scramble`]: random bijections of digits that keep nets nets;
 //! * [`quality`]: how even points are: discrepancies and their structure;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
+//! * [`modular`]: the engine that all lattices share;
+//! * [`construction`] and [`quality`]: generating vectors of lattices, and how good they are;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
 //!
@@ -25,6 +27,8 @@
 
 #[cfg(feature = "std")]
 mod cells;
+#[cfg(feature = "std")]
+pub mod construction;
 pub mod convert;
 #[cfg(feature = "std")]
 mod counts;
@@ -39,6 +43,8 @@ mod error;
 mod generating_matrices;
 #[cfg(feature = "std")]
 mod instruction_sets;
+#[cfg(feature = "std")]
+pub mod modular;
 #[cfg(feature = "std")]
 pub mod multi_jitter;
 pub mod owen_hash;

@@ -4,6 +4,7 @@
 
 mod errors;
 mod families;
+mod lattices;
 mod output;
 mod points;
 mod quality;
@@ -16,6 +17,7 @@ use pyo3::prelude::*;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     families::register(module)?;
+    lattices::register(module)?;
     output::register(module)?;
     points::register(module)?;
     quality::register(module)?;

@@ -8,16 +8,21 @@ from typing import Any, NamedTuple, SupportsIndex
 
 from evenlight import _core
 
+from .construction import construct_korobov, construct_lattice, construct_polynomial_lattice
 from .correlated_multi_jittered import CorrelatedMultiJittered
 from .digital_net import DigitalNet
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
 from .faure import Faure
+from .fibonacci import Fibonacci
 from .halton import Halton
 from .hammersley import Hammersley
 from .independent import Independent
 from .interlaced_sobol import InterlacedSobol
+from .korobov import Korobov
+from .kronecker import Kronecker
 from .latin_hypercube import LatinHypercube
+from .lattice import Lattice
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
 from .niederreiter_xing import NiederreiterXing
@@ -25,6 +30,7 @@ from .niederreiter import Niederreiter
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
+from .polynomial_lattice import PolynomialLattice
 from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
 from .stratified import Stratified
@@ -38,11 +44,15 @@ __all__ = [
     "Dyadic",
     "Engine",
     "Faure",
+    "Fibonacci",
     "Halton",
     "Hammersley",
     "Independent",
     "InterlacedSobol",
+    "Korobov",
+    "Kronecker",
     "LatinHypercube",
+    "Lattice",
     "MersenneTwister",
     "MultiJittered",
     "NiederreiterXing",
@@ -50,6 +60,7 @@ __all__ = [
     "OrthogonalArray",
     "Pcg",
     "Philox",
+    "PolynomialLattice",
     "ProgressiveMultiJittered",
     "SequenceInfo",
     "Sobol",
@@ -58,6 +69,9 @@ __all__ = [
     "VanDerCorput",
     "available",
     "build",
+    "construct_korobov",
+    "construct_lattice",
+    "construct_polynomial_lattice",
 ]
 
 SEQUENCES: dict[str, type[Engine]] = {
@@ -76,6 +90,11 @@ SEQUENCES: dict[str, type[Engine]] = {
         Dyadic,
         Sz,
         ProgressiveMultiJittered,
+        Lattice,
+        PolynomialLattice,
+        Kronecker,
+        Korobov,
+        Fibonacci,
         LatinHypercube,
         OrthogonalArray,
         Stratified,

@@ -5,9 +5,10 @@
 //! * the algorithms behind it: [`sweep`] (one and two dimensions), [`dem`] (exact, more dimensions),
 //!   [`threshold_accepting`] (lower bounds), [`bracketing`] (upper bounds);
 //! * [`l2`]: mean squares instead of the largest error;
+//! * [`lattice_criteria`]: worst-case errors of lattices and nets in weighted spaces of functions;
 //! * [`t_value`](mod@t_value): the quality parameter of a digital net, from its matrices.
 //!
-//! All but the last measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
+//! All but the last two measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
 
 pub mod bracketing;
 mod cuts;
@@ -16,6 +17,7 @@ mod dem_leaf;
 mod halves;
 mod kinetic;
 pub mod l2;
+pub mod lattice_criteria;
 pub mod local;
 mod pairs;
 mod rows;

@@ -13,6 +13,7 @@
 //! | `digit_permutation` | yes | n⁻²; in base 2 the same as `digital_shift` | small |
 //! | `digital_shift` | yes | n⁻² | none |
 //! | `shift` | lattices, not nets | n⁻² | none |
+//! | `shift_tent` | no | n⁻⁴ for lattices | none |
 
 pub mod digit_permutation;
 pub mod digital_shift;
@@ -24,6 +25,7 @@ pub mod none;
 pub mod owen;
 pub mod owen_exact;
 pub mod shift;
+pub mod shift_tent;
 
 use crate::{Error, Seed};
 
@@ -34,6 +36,8 @@ pub enum Randomization {
     None,
     /// Add the same random numbers to all points, modulo 1: [`shift`].
     Shift,
+    /// The same, then fold every coordinate: [`shift_tent`].
+    ShiftTent,
     /// Add the same random digits to all points: [`digital_shift`].
     DigitalShift,
     /// Permute the digits of every place, the same way for all points: [`digit_permutation`].
@@ -59,7 +63,7 @@ pub struct Entry {
     pub name: &'static str,
     /// Where it was published.
     pub cite: &'static str,
-    /// The base-2 form: a bijection of 64-bit words.
+    /// The base-2 form: a map of 64-bit words that keeps their distribution, a bijection unless it folds.
     pub apply: fn(word: u64, key: Seed) -> u64,
     /// Whether the base-2 form is affine over {0, 1}: then it can be built into generating matrices.
     pub affine: bool,
@@ -71,6 +75,7 @@ pub struct Entry {
 pub static ALL: &[&Entry] = &[
     &none::ENTRY,
     &shift::ENTRY,
+    &shift_tent::ENTRY,
     &digital_shift::ENTRY,
     &digit_permutation::ENTRY,
     &linear::ENTRY,
@@ -105,6 +110,8 @@ impl Randomization {
         Self::Shift,
         Self::None,
     ];
+    /// What a lattice takes, its default first.
+    pub const MODULAR: &'static [Self] = &[Self::Shift, Self::ShiftTent, Self::None];
 
     /// The randomization of this name.
     ///
@@ -125,6 +132,7 @@ impl Randomization {
         match self {
             Self::None => &none::ENTRY,
             Self::Shift => &shift::ENTRY,
+            Self::ShiftTent => &shift_tent::ENTRY,
             Self::DigitalShift => &digital_shift::ENTRY,
             Self::DigitPermutation => &digit_permutation::ENTRY,
             Self::Linear => &linear::ENTRY,

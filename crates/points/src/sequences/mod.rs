@@ -7,11 +7,15 @@ pub mod correlated_multi_jittered;
 pub mod digital_net;
 pub mod dyadic;
 pub mod faure;
+pub mod fibonacci;
 pub mod halton;
 pub mod hammersley;
 pub mod independent;
 pub mod interlaced_sobol;
+pub mod korobov;
+pub mod kronecker;
 pub mod latin_hypercube;
+pub mod lattice;
 #[cfg(feature = "generators")]
 pub mod mersenne_twister;
 pub mod multi_jittered;
@@ -21,6 +25,7 @@ pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
 pub mod philox;
+pub mod polynomial_lattice;
 pub mod progressive_multi_jittered;
 pub mod sobol;
 pub mod stratified;
@@ -118,6 +123,11 @@ pub static ALL: &[&Entry] = &[
     &dyadic::ENTRY,
     &sz::ENTRY,
     &progressive_multi_jittered::ENTRY,
+    &lattice::ENTRY,
+    &polynomial_lattice::ENTRY,
+    &kronecker::ENTRY,
+    &korobov::ENTRY,
+    &fibonacci::ENTRY,
     &latin_hypercube::ENTRY,
     &orthogonal_array::ENTRY,
     &stratified::ENTRY,

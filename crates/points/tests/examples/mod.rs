@@ -20,6 +20,8 @@ pub(crate) fn options(name: &str, dims: usize) -> Options {
             let primes = (dims.max(12) as u64 - 1..).filter(|p| (2..*p).all(|divisor| p % divisor > 0));
             primes.map(|p| p * p).next()
         }
+        "fibonacci" => Some(1597),
+        "korobov" => Some(1021),
         "mersenne_twister" => Some(5000), // it cannot skip rows
         _ => None,
     };
