@@ -13,8 +13,11 @@ __all__ = [
     "available_sequences",
     "bsdfs",
     "check_writable",
+    "dispersion",
     "emitters",
+    "extreme_discrepancy",
     "filters",
+    "gain_coefficient",
     "heuristics",
     "integrators",
     "kernels",
@@ -27,9 +30,11 @@ __all__ = [
     "scrambles",
     "sensors",
     "shapes",
+    "smallest_t",
     "star_discrepancy",
     "star_discrepancy_cost",
     "textures",
+    "triangle_discrepancy",
     "write_exr",
     "write_png",
 ]
@@ -76,13 +81,18 @@ def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: .
 # --- quality ---
 
 def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def dispersion(x: NDArray[np.float64], limit: int) -> tuple[float, list[float], list[float]]: ...
+def extreme_discrepancy(x: NDArray[np.float64]) -> tuple[float, list[float], list[float], bool]: ...
+def gain_coefficient(x: NDArray[np.float64], levels: Sequence[int | None], base: int) -> float: ...
 def l2_discrepancy(
     x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
 ) -> float: ...
+def smallest_t(x: NDArray[np.float64], base: int) -> int: ...
 def star_discrepancy(
     x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
 ) -> tuple[float, str, list[float], float, bool, str]: ...
 def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
+def triangle_discrepancy(barycentric: NDArray[np.float64], sets: str) -> tuple[float, list[float], bool, list[int]]: ...
 
 # --- render ---
 

@@ -3,8 +3,42 @@
 All take an array of shape (n, d) with numbers in [0, 1], whoever made it.
 """
 
+from .boxes import EmptyBox, ExtremeDiscrepancy, dispersion, extreme_discrepancy
+from .effective import EffectiveDimension, effective_dimension
 from .l2 import discrepancy
 from .local import local_discrepancy
+from .nets import gain_coefficients, is_net, smallest_t
+from .sensitivity import SobolIndices, sobol_indices
+from .spectrum import PairCorrelation, RadialSpectrum, minimum_distance, pair_correlation, periodogram, radial_spectrum
 from .star import StarDiscrepancy, star_discrepancy, star_discrepancy_cost
+from .triangle import triangle_discrepancy
+from .variation import Variation, hardy_krause_variation, koksma_hlawka_bound
 
-__all__ = ["StarDiscrepancy", "discrepancy", "local_discrepancy", "star_discrepancy", "star_discrepancy_cost"]
+__all__ = [
+    "EffectiveDimension",
+    "EmptyBox",
+    "ExtremeDiscrepancy",
+    "PairCorrelation",
+    "RadialSpectrum",
+    "SobolIndices",
+    "StarDiscrepancy",
+    "Variation",
+    "discrepancy",
+    "dispersion",
+    "effective_dimension",
+    "extreme_discrepancy",
+    "gain_coefficients",
+    "hardy_krause_variation",
+    "is_net",
+    "koksma_hlawka_bound",
+    "local_discrepancy",
+    "minimum_distance",
+    "pair_correlation",
+    "periodogram",
+    "radial_spectrum",
+    "smallest_t",
+    "sobol_indices",
+    "star_discrepancy",
+    "star_discrepancy_cost",
+    "triangle_discrepancy",
+]

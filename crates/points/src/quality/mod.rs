@@ -4,7 +4,9 @@
 //! * [`star`]: the largest error over all anchored boxes, exact or bounded, and what it would cost;
 //! * the algorithms behind it: [`sweep`] (one and two dimensions), [`dem`] (exact, more dimensions),
 //!   [`threshold_accepting`] (lower bounds), [`bracketing`] (upper bounds);
-//! * [`l2`]: mean squares instead of the largest error.
+//! * [`l2`]: mean squares instead of the largest error;
+//! * [`triangle`]: points in a triangle; [`extreme`] and [`dispersion`]: the worst and the largest empty of all boxes;
+//! * [`nets`]: points as nets: elementary intervals and gain coefficients.
 //!
 //! All measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
 
@@ -12,15 +14,19 @@ pub mod bracketing;
 mod cuts;
 pub mod dem;
 mod dem_leaf;
+pub mod dispersion;
+pub mod extreme;
 mod halves;
 mod kinetic;
 pub mod l2;
 pub mod local;
+pub mod nets;
 mod pairs;
 mod rows;
 mod shapes;
 pub mod star;
 pub mod sweep;
 pub mod threshold_accepting;
+pub mod triangle;
 
 pub use rows::Rows;
