@@ -61,7 +61,7 @@ def test_the_periodogram_is_its_definition_and_has_the_known_means() -> None:
         wave = np.exp(-2j * np.pi * (x @ [i - 5, j - 5]))
         assert power[i, j] == pytest.approx(abs(wave.sum()) ** 2 / 37, abs=1e-10)
     mean = np.mean([quality.radial_spectrum(generator.random((256, 2)), 32).power for _ in range(50)], axis=0)
-    # power of independent points has mean and deviation 1; the first rings have 4 independent frequencies in each of 50 sets
+    # power of independent points has mean and deviation 1; the first ring has 4 independent frequencies, 50 times
     assert (np.abs(mean - 1) < 5 / np.sqrt(50 * 4)).all()
 
 
