@@ -87,8 +87,9 @@ def _l2(record: Record) -> Iterator[str]:
     yield "## L2 family: times as fast as SciPy"
     yield ""
     yield (
-        f"One thread each; ratios of the medians of {record['rounds']} turns of processor time, and of the best turns in "
-        f"brackets; wanted: {WANTED:g} at d = 5, n = 4096. Largest relative difference of the values: {_difference(record):.0e}."
+        f"One thread each; ratios of the medians of {record['rounds']} turns of processor time, and of the best turns "
+        f"in brackets; wanted: {WANTED:g} at d = 5, n = 4096. Largest relative difference of the values: "
+        f"{_difference(record):.0e}."
     )
     yield ""
     yield f"| | {' | '.join(METHODS)} |"
