@@ -17,8 +17,11 @@ __all__ = [
     "construct_lattice",
     "construct_polynomial_lattice",
     "digital_net_error",
+    "dispersion",
     "emitters",
+    "extreme_discrepancy",
     "filters",
+    "gain_coefficient",
     "heuristics",
     "integrators",
     "kernels",
@@ -32,11 +35,13 @@ __all__ = [
     "scrambles",
     "sensors",
     "shapes",
+    "smallest_t",
     "star_discrepancy",
     "star_discrepancy_cost",
     "t_value",
     "t_value_in_base",
     "textures",
+    "triangle_discrepancy",
     "write_exr",
     "write_png",
 ]
@@ -98,15 +103,20 @@ def digital_net_error(x: NDArray[np.float64], weights: Sequence[float]) -> float
 # --- quality ---
 
 def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def dispersion(x: NDArray[np.float64], limit: int) -> tuple[float, list[float], list[float]]: ...
+def extreme_discrepancy(x: NDArray[np.float64]) -> tuple[float, list[float], list[float], bool]: ...
+def gain_coefficient(x: NDArray[np.float64], levels: Sequence[int | None], base: int) -> float: ...
 def l2_discrepancy(
     x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
 ) -> float: ...
+def smallest_t(x: NDArray[np.float64], base: int) -> int: ...
 def star_discrepancy(
     x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
 ) -> tuple[float, str, list[float], float, bool, str]: ...
 def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
 def t_value(matrices: Sequence[Sequence[int]], m: int) -> int: ...
 def t_value_in_base(base: int, matrices: Sequence[Sequence[Sequence[int]]], m: int) -> int: ...
+def triangle_discrepancy(barycentric: NDArray[np.float64], sets: str) -> tuple[float, list[float], bool, list[int]]: ...
 
 # --- render ---
 
