@@ -64,6 +64,7 @@ def test_set_up_is_two_commands() -> None:
 FAMILIES = {
     "sequences": [info.name for info in points.available()],
     "scrambles": _core.scrambles(),
+    "warps": _core.warps(),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),

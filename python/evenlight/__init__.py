@@ -8,8 +8,8 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import points
+from evenlight import points, warp
 from evenlight._core import __version__
 from evenlight.render import Film, Scene, load_scene, render
 
-__all__ = ["Film", "Scene", "__version__", "load_scene", "points", "render"]
+__all__ = ["Film", "Scene", "__version__", "load_scene", "points", "render", "warp"]

@@ -14,6 +14,7 @@
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
+//! * [`warp`]: points of triangles, curves, directions and distributions, each with density and inverse;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
 //!
@@ -59,6 +60,8 @@ mod streaming;
 mod tower_field;
 #[cfg(feature = "std")]
 mod unit;
+#[cfg(feature = "std")]
+pub mod warp;
 
 #[cfg(feature = "std")]
 pub use error::Error;
