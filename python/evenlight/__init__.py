@@ -10,6 +10,8 @@ Examples
 
 from evenlight import points, warp
 from evenlight._core import __version__
+from evenlight.estimate import Estimate
+from evenlight.integrate import integrate
 from evenlight.render import Film, Scene, load_scene, render
 
-__all__ = ["Film", "Scene", "__version__", "load_scene", "points", "render", "warp"]
+__all__ = ["Estimate", "Film", "Scene", "__version__", "integrate", "load_scene", "points", "render", "warp"]
