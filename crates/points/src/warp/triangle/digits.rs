@@ -43,7 +43,7 @@ const fn steps() -> [Step; 256] {
 /// ```
 #[inline]
 pub fn barycentric(mut word: u64) -> [f64; 3] {
-    const THIRD: f64 = 1.0 / (3.0 * (1_u64 << 32) as f64);
+    const WHOLE: f64 = 3.0 * (1_u64 << 32) as f64;
     let (mut steps, mut sign, mut place) = ([0_i64; 3], 1, 28);
     while word != 0 {
         let step = STEPS[(word >> 56) as usize];
@@ -54,7 +54,7 @@ pub fn barycentric(mut word: u64) -> [f64; 3] {
         (word, place) = (word << 8, place - 4);
     }
     let rest = (1 << 32) - steps.iter().sum::<i64>();
-    steps.map(|step| (rest + 3 * step) as f64 * THIRD)
+    steps.map(|step| (rest + 3 * step) as f64 / WHOLE)
 }
 
 /// The first `count` digits of the triangles that a point is in, zeros after them.
