@@ -7,12 +7,19 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import integrands, points
+from evenlight import importance, integrands, lab, points, quality
 
 
 def public_names() -> list[tuple[str, object]]:
     """All classes and functions a user is meant to see."""
-    modules = {"evenlight": evenlight, "evenlight.points": points, "evenlight.integrands": integrands}
+    modules = {
+        "evenlight": evenlight,
+        "evenlight.points": points,
+        "evenlight.integrands": integrands,
+        "evenlight.quality": quality,
+        "evenlight.importance": importance,
+        "evenlight.lab": lab,
+    }
     return [
         (f"{prefix}.{name}", thing)
         for prefix, module in modules.items()
@@ -27,7 +34,7 @@ def test_public_names_are_documented_with_an_example(name: str, thing: object) -
     document = inspect.getdoc(thing) or ""
     assert document, name
     shown_by_others = inspect.isclass(thing) and (
-        issubclass(thing, (tuple, integrands.Problem)) or thing.__subclasses__()
+        issubclass(thing, (tuple, integrands.Problem, importance.Density, lab.MixtureProblem)) or thing.__subclasses__()
     )
     if not shown_by_others:
         assert ">>>" in document, f"{name} has no example"

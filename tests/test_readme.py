@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, integrands, points, rules
+from evenlight import _core, cli, importance, integrands, points, rules
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -30,7 +30,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_python_example_runs(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    example, _ = blocks("python")
+    example, *_ = blocks("python")
     assert len(example.splitlines()) <= 10
     names: dict[str, Any] = {}
     exec(example, names)
@@ -43,11 +43,19 @@ def test_the_python_example_runs(folder: Path, capsys: pytest.CaptureFixture[str
 
 
 def test_the_example_of_an_integral_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    _, example = blocks("python")
+    _, example, *_ = blocks("python")
     names: dict[str, Any] = {}
     exec(example, names)
     assert f"# {capsys.readouterr().out.strip()}" in example
     assert names["low"] < 0.4165383858866382 < names["high"]
+
+
+def test_the_example_of_a_mixture_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    *_, example = blocks("python")
+    names: dict[str, Any] = {}
+    exec(example, names)
+    assert f"# {capsys.readouterr().out.strip()}" in example
+    assert abs(names["estimate"].value - 1.3498980316e-3) < 4 * names["estimate"].standard_error
 
 
 def commands() -> list[str]:
@@ -75,6 +83,8 @@ FAMILIES = {
     "warps": _core.warps(),
     "rules": list(rules.RULES),
     "integrands": list(integrands.INTEGRANDS),
+    "densities": list(importance.DENSITIES),
+    "heuristics": list(importance.HEURISTICS),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),

@@ -8,10 +8,24 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import points, warp
+from evenlight import importance, integrands, lab, points, quality, warp
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
 from evenlight.render import Film, Scene, load_scene, render
 
-__all__ = ["Estimate", "Film", "Scene", "__version__", "integrate", "load_scene", "points", "render", "warp"]
+__all__ = [
+    "Estimate",
+    "Film",
+    "Scene",
+    "__version__",
+    "importance",
+    "integrands",
+    "integrate",
+    "lab",
+    "load_scene",
+    "points",
+    "quality",
+    "render",
+    "warp",
+]

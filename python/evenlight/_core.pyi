@@ -24,13 +24,17 @@ __all__ = [
     "heuristics",
     "integrators",
     "kernels",
+    "l2_discrepancy",
     "load_scene",
+    "local_discrepancy",
     "render",
     "replicate_seed",
     "samplers",
     "scrambles",
     "sensors",
     "shapes",
+    "star_discrepancy",
+    "star_discrepancy_cost",
     "textures",
     "triangle_kronecker",
     "triangle_product",
@@ -121,6 +125,16 @@ def curve_points(curve: str, source: str, n_start: tuple[int, int], seed: int, o
 def curve_order(
     curve: str, x: NDArray[np.float64], lower: Sequence[float], upper: Sequence[float], workers: int
 ) -> NDArray[np.uint32]: ...
+# --- quality ---
+
+def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def l2_discrepancy(
+    x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
+) -> float: ...
+def star_discrepancy(
+    x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
+) -> tuple[float, str, list[float], float, bool, str]: ...
+def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
 
 # --- render ---
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from evenlight.intervals import Interval
 from evenlight.moments import Moments
 from evenlight.stopping import sequential_quantile
 
-__all__ = ["Estimate", "NotConvergedWarning", "from_moments"]
+__all__ = ["Estimate", "NotConvergedWarning", "from_error", "from_moments"]
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ class Estimate:
         Of `standard_error`.
     sequential : bool
         Whether the run stopped when its interval was short enough; intervals are then wider, to keep their promise.
-    groups : tuple of (int, Moments)
+    groups : tuple of (float, Moments)
         Function values per replicate, and the moments of the replicates: what makes estimates merge.
 
     Examples
@@ -78,7 +78,7 @@ class Estimate:
     diagnostics: dict[str, Any] = field(default_factory=dict)
     degrees_of_freedom: float = math.nan
     sequential: bool = False
-    groups: tuple[tuple[int, Moments], ...] = field(default=(), repr=False)
+    groups: tuple[tuple[float, Moments], ...] = field(default=(), repr=False)
 
     def confidence_interval(self, level: float = 0.95, kind: str = "t") -> Interval[Any]:
         """Bounds that hold the truth in about `level` of the cases, for each entry of an array by itself.
@@ -190,17 +190,17 @@ class Estimate:
         return float(intervals.student_quantile(level, self.degrees_of_freedom))
 
     def _replicate_moments(self) -> Moments:
-        if len(self.groups) != 1:
+        if len(self.groups) != 1 or np.isnan(self.groups[0][1].third).any():
             raise ValueError("this kind of interval needs the moments of equal replicates; kind='t' does not")
         return self.groups[0][1]
 
 
-def from_moments(groups: tuple[tuple[int, Moments], ...], *, method: str, cost: float, **rest: Any) -> Estimate:
+def from_moments(groups: tuple[tuple[float, Moments], ...], *, method: str, cost: float, **rest: Any) -> Estimate:
     """The estimate from the moments of independent replicates.
 
     Parameters
     ----------
-    groups : tuple of (int, Moments)
+    groups : tuple of (float, Moments)
         Function values per replicate, and moments of the replicates' means.
     method : str
         What made them.
@@ -214,7 +214,7 @@ def from_moments(groups: tuple[tuple[int, Moments], ...], *, method: str, cost: 
     Estimate
         The mean, weighted with function values.
     """
-    pooled: dict[int, Moments] = {}
+    pooled: dict[float, Moments] = {}
     for size, moments in groups:
         pooled[size] = pooled[size].merge(moments) if size in pooled else moments
     total = sum(size * moments.count for size, moments in pooled.items())
@@ -224,7 +224,7 @@ def from_moments(groups: tuple[tuple[int, Moments], ...], *, method: str, cost: 
     return Estimate(
         value=_plain(value),
         standard_error=_plain(np.sqrt(sum(variances))),
-        n=total,
+        n=round(total),
         replicates=sum(moments.count for moments in pooled.values()),
         cost=cost,
         method=method,
@@ -232,6 +232,21 @@ def from_moments(groups: tuple[tuple[int, Moments], ...], *, method: str, cost: 
         groups=tuple(sorted(pooled.items(), key=lambda group: group[0])),
         **rest,
     )
+
+
+def from_error(estimate: Estimate, **changes: Any) -> Estimate:
+    """The same estimate with changes, able to merge although its error does not come from equal replicates.
+
+    It counts as one more than its degrees of freedom replicates, whose spread is what its standard error says.
+    """
+    changed = replace(estimate, **changes)
+    if changed.groups or math.isnan(changed.degrees_of_freedom):
+        return changed
+    count = max(2, round(changed.degrees_of_freedom) + 1)
+    value = np.asarray(changed.value, np.float64)
+    second = np.asarray(changed.standard_error, np.float64) ** 2 * count * (count - 1)
+    moments = Moments(count, value, second, np.full_like(value, math.nan))
+    return replace(changed, groups=((changed.n / count, moments),))
 
 
 def _degrees(variances: list[Array], degrees: list[int]) -> float:

@@ -13,6 +13,7 @@
 //!
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
+//! * [`quality`]: how even points are: discrepancies and their structure;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
 //! * [`warp`]: points of triangles, curves, directions and distributions, each with density and inverse;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
@@ -44,6 +45,8 @@ pub mod owen_hash;
 mod parallel;
 #[cfg(feature = "std")]
 mod point_set;
+#[cfg(feature = "std")]
+pub mod quality;
 #[cfg(feature = "std")]
 mod radical_inverse;
 #[cfg(feature = "std")]

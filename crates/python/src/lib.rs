@@ -7,6 +7,7 @@ mod errors;
 mod families;
 mod output;
 mod points;
+mod quality;
 mod render;
 mod warp;
 
@@ -20,6 +21,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     families::register(module)?;
     output::register(module)?;
     points::register(module)?;
+    quality::register(module)?;
     render::register(module)?;
     warp::register(module)
 }
