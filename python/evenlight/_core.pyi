@@ -125,6 +125,7 @@ def curve_points(curve: str, source: str, n_start: tuple[int, int], seed: int, o
 def curve_order(
     curve: str, x: NDArray[np.float64], lower: Sequence[float], upper: Sequence[float], workers: int
 ) -> NDArray[np.uint32]: ...
+
 # --- quality ---
 
 def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
