@@ -17,6 +17,7 @@
 //! * [`digital_net`]: the engine that all base-2 sequences share;
 //! * [`modular`]: the engine that all lattices share;
 //! * [`construction`] and [`quality`]: generating vectors of lattices, and how good they are;
+//! * [`warp`]: points of triangles, curves, directions and distributions, each with density and inverse;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
 //!
@@ -74,6 +75,8 @@ mod streaming;
 mod tower_field;
 #[cfg(feature = "std")]
 mod unit;
+#[cfg(feature = "std")]
+pub mod warp;
 
 #[cfg(feature = "std")]
 pub use error::Error;

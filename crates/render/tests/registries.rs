@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use evenlight_points::{scramble, sequences};
+use evenlight_points::{scramble, sequences, warp};
 use evenlight_render::{bsdf, emitter, filter, integrator, sampler, sensor, shape, texture};
 
 /// A family: its folder below `crates`, the names in its registry, and the files that several of its members share.
@@ -22,6 +22,7 @@ fn families() -> Vec<Family> {
     vec![
         ("points/src/sequences", names!(sequences::ALL), &[]),
         ("points/src/scramble", names!(scramble::ALL), &["matrix"]),
+        ("points/src/warp", names!(warp::ALL), &["curve", "options", "real", "rows", "triangle"]),
         (
             "render/src/bsdf",
             names!(bsdf::ALL),
