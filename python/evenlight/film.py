@@ -209,7 +209,7 @@ def _sum_around(image: NDArray[np.float64]) -> NDArray[np.float64]:
     height, width, _ = image.shape
     padded = np.pad(image, ((1, 1), (1, 1), (0, 0)))
     shifted = [padded[y : y + height, x : x + width] for y in range(3) for x in range(3)]
-    return np.sum(shifted, axis=0)
+    return np.asarray(np.sum(shifted, axis=0))
 
 
 def _unskewed(t: NDArray[np.float64], skewness: NDArray[np.float64]) -> NDArray[np.float64]:
