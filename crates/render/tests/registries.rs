@@ -28,7 +28,7 @@ fn families() -> Vec<Family> {
             &["coat", "fresnel", "gauss", "glass", "interface", "metal", "microfacet", "perturbed", "warp"],
         ),
         // `area` belongs to a shape and is built with it
-        ("render/src/emitter", names!(emitter::ALL), &["area", "selection", "sky"]),
+        ("render/src/emitter", names!(emitter::ALL), &["area", "placement", "selection", "sky"]),
         ("render/src/filter", names!(filter::ALL), &[]),
         ("render/src/integrator", names!(integrator::ALL), &[]),
         ("render/src/sampler", names!(sampler::ALL), &[]),
