@@ -18,13 +18,19 @@ __all__ = [
     "heuristics",
     "integrators",
     "kernels",
+    "l2_discrepancy",
     "load_scene",
+    "local_discrepancy",
     "render",
     "replicate_seed",
     "samplers",
     "scrambles",
     "sensors",
     "shapes",
+    "star_discrepancy",
+    "star_discrepancy_cost",
+    "t_value",
+    "t_value_in_base",
     "textures",
     "write_exr",
     "write_png",
@@ -48,6 +54,8 @@ class PointSet:
         order: int | None = None,
         strength: int | None = None,
         generator: Sequence[int] | None = None,
+        matrices: Sequence[Sequence[int]] | None = None,
+        bits: int | None = None,
     ) -> PointSet: ...
     @property
     def dims(self) -> int: ...
@@ -55,6 +63,7 @@ class PointSet:
     def count(self) -> int | None: ...
     @property
     def base(self) -> int | None: ...
+    def generating_matrices(self) -> list[list[int]] | None: ...
     def coord(self, index: int, dim: int) -> float: ...
     def fill(self, start: int, stop: int, out: NDArray[np.float64] | NDArray[np.float32], workers: int) -> None: ...
     def fill_replicates(
@@ -68,6 +77,19 @@ class PointSet:
 
 def replicate_seed(seed: int, replicate: int) -> int: ...
 def available_sequences() -> list[tuple[str, str, list[str], list[str], int]]: ...
+
+# --- quality ---
+
+def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
+def l2_discrepancy(
+    x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
+) -> float: ...
+def star_discrepancy(
+    x: NDArray[np.float64], settings: dict[str, Any], progress: Callable[[float], object] | None
+) -> tuple[float, str, list[float], float, bool, str]: ...
+def star_discrepancy_cost(x: NDArray[np.float64], seed: int) -> float: ...
+def t_value(matrices: Sequence[Sequence[int]], m: int) -> int: ...
+def t_value_in_base(base: int, matrices: Sequence[Sequence[Sequence[int]]], m: int) -> int: ...
 
 # --- render ---
 

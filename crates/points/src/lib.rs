@@ -13,6 +13,7 @@
 //!
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
+//! * [`quality`]: how even points are: discrepancies and their structure;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
@@ -43,6 +44,8 @@ pub mod owen_hash;
 mod parallel;
 #[cfg(feature = "std")]
 mod point_set;
+#[cfg(feature = "std")]
+pub mod quality;
 #[cfg(feature = "std")]
 mod radical_inverse;
 #[cfg(feature = "std")]

@@ -6,6 +6,7 @@ mod errors;
 mod families;
 mod output;
 mod points;
+mod quality;
 mod render;
 
 use pyo3::prelude::*;
@@ -17,5 +18,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     families::register(module)?;
     output::register(module)?;
     points::register(module)?;
+    quality::register(module)?;
     render::register(module)
 }
