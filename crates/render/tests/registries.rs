@@ -26,10 +26,10 @@ fn families() -> Vec<Family> {
         (
             "render/src/bsdf",
             names!(bsdf::ALL),
-            &["coat", "fresnel", "gauss", "interface", "metal", "microfacet", "perturbed", "warp"],
+            &["coat", "fresnel", "gauss", "glass", "interface", "metal", "microfacet", "perturbed", "warp"],
         ),
         // `area` belongs to a shape and is built with it
-        ("render/src/emitter", names!(emitter::ALL), &["area", "selection", "sky"]),
+        ("render/src/emitter", names!(emitter::ALL), &["area", "placement", "selection", "sky"]),
         ("render/src/filter", names!(filter::ALL), &[]),
         ("render/src/integrator", names!(integrator::ALL), &[]),
         ("render/src/sampler", names!(sampler::ALL), &[]),
