@@ -83,6 +83,7 @@ impl Axis {
             Randomization::Owen | Randomization::OwenExact => {
                 Scramble::Nested(Nested::new(places, randomization, key))
             }
+            Randomization::ShiftTent => unreachable!("only lattices take it"),
         };
         Self { coordinate, scramble, table: OnceLock::new() }
     }

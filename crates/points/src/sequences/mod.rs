@@ -19,8 +19,8 @@ pub mod lattice;
 #[cfg(feature = "generators")]
 pub mod mersenne_twister;
 pub mod multi_jittered;
-pub mod niederreiter_xing;
 pub mod niederreiter;
+pub mod niederreiter_xing;
 pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
