@@ -1,6 +1,7 @@
 """How even points are, and what that says of an integral: measures of any points of the unit cube.
 
-All but `t_value` and `lattice_error`, which are about nets and lattices, take an array of shape (n, d) with numbers in [0, 1], whoever made it.
+All but `t_value` and `lattice_error`, which are about nets and lattices, take an array of shape (n, d) with numbers in
+[0, 1], whoever made it.
 """
 
 from .l2 import discrepancy
