@@ -18,6 +18,7 @@ from .interlaced_sobol import InterlacedSobol
 from .latin_hypercube import LatinHypercube
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
+from .net_tables import read_direction_numbers, read_matrices
 from .niederreiter_xing import NiederreiterXing
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
@@ -50,6 +51,8 @@ __all__ = [
     "Sz",
     "available",
     "build",
+    "read_direction_numbers",
+    "read_matrices",
 ]
 
 SEQUENCES: dict[str, type[Engine]] = {
