@@ -25,6 +25,7 @@ from .latin_hypercube import LatinHypercube
 from .lattice import Lattice
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
+from .net_tables import read_direction_numbers, read_matrices
 from .niederreiter_xing import NiederreiterXing
 from .niederreiter import Niederreiter
 from .orthogonal_array import OrthogonalArray
@@ -72,6 +73,8 @@ __all__ = [
     "construct_korobov",
     "construct_lattice",
     "construct_polynomial_lattice",
+    "read_direction_numbers",
+    "read_matrices",
 ]
 
 SEQUENCES: dict[str, type[Engine]] = {
