@@ -34,7 +34,8 @@ def test_public_names_are_documented_with_an_example(name: str, thing: object) -
     document = inspect.getdoc(thing) or ""
     assert document, name
     shown_by_others = inspect.isclass(thing) and (
-        issubclass(thing, (tuple, integrands.Problem, importance.Density, lab.MixtureProblem)) or thing.__subclasses__()
+        issubclass(thing, (tuple, integrands.Problem, importance.Density, lab.MixtureProblem, lab.RateCase))
+        or thing.__subclasses__()
     )
     if not shown_by_others:
         assert ">>>" in document, f"{name} has no example"

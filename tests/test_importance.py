@@ -240,6 +240,32 @@ def test_estimates_of_mixtures_merge() -> None:
     assert merged.n == 9000
 
 
+@pytest.mark.parametrize("aim", ["entropy", "variance", "weights"])
+def test_learned_mixtures_are_at_least_as_good_as_what_they_began_with(aim: Any) -> None:
+    problem = singularity()
+    estimate = importance.adaptive_estimate(problem.f, problem.target, problem.proposals, n=30_000, aim=aim, seed=5)
+    assert abs(estimate.value - problem.exact) < 5 * estimate.standard_error
+    most = {"entropy": 0.15, "variance": 0.15, "weights": 1.1}[aim]
+    assert estimate.diagnostics["variance"] < most * 0.01137  # the best that weights alone can do
+    assert (estimate.n, estimate.cost) == (24_000, 30_000)
+
+
+def test_learning_does_not_run_away_from_a_rare_event() -> None:
+    problem = rare_event()
+    estimate = importance.adaptive_estimate(problem.f, problem.target, problem.proposals, n=50_000, seed=1)
+    assert abs(estimate.value - problem.exact) < 5 * estimate.standard_error
+    assert estimate.standard_error < 0.02 * problem.exact
+
+
+def test_student_t_components_learn_location_and_shape() -> None:
+    """Points of the density itself: the fit is likelihood's, a step of which stays near the truth."""
+    truth = StudentT([1, 2], COVARIANCE, df=4)
+    x = truth.sample(Independent(3, seed=1).points(0, 100_000))
+    fitted: Any = truth.fitted(x, np.ones(len(x)))
+    np.testing.assert_allclose(fitted.location, [1, 2], atol=0.03)
+    np.testing.assert_allclose(fitted.shape, COVARIANCE, atol=0.06)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

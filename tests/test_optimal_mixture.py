@@ -125,6 +125,13 @@ def test_a_common_factor_of_a_row_changes_nothing() -> None:
     assert one.variance == pytest.approx(other.variance, rel=1e-8)
 
 
+def test_small_values_are_optimized_as_well_as_large_ones() -> None:
+    pilot = random_pilot(4)
+    for factor in (1e-9, 1e9):
+        found = optimal_mixture(pilot.fp * factor, pilot.q, pilot.density, gap=1e-8)
+        np.testing.assert_allclose(found.alpha, optimal_mixture(*pilot[:3], gap=1e-8).alpha, atol=1e-6)
+
+
 def test_hundreds_of_components_are_certified() -> None:
     pilot = random_pilot(6, n=3000, components=400)
     found = optimal_mixture(pilot.fp, pilot.q, pilot.density, control_variates=False, gap=1e-6)

@@ -1,4 +1,4 @@
-//! Known numbers of the constructions: quality parameters, elementary intervals, star discrepancies.
+//! Known numbers of the constructions: elementary intervals, star discrepancies.
 
 use evenlight_points::scramble::Randomization;
 use evenlight_points::sequences::{self, Spec};
@@ -21,54 +21,6 @@ fn compositions(sum: u32, parts: usize) -> Vec<Vec<u32>> {
         })
     });
     first.collect()
-}
-
-/// True if bit vectors are independent over {0, 1}: Gaussian elimination.
-fn independent(rows: impl Iterator<Item = u64>) -> bool {
-    let mut basis: Vec<u64> = Vec::new();
-    for mut row in rows {
-        for &pivot in &basis {
-            row = row.min(row ^ pivot);
-        }
-        if row == 0 {
-            return false;
-        }
-        basis.push(row);
-    }
-    true
-}
-
-/// The quality parameter of the first 2^m points: m − k for the largest k such that in every
-/// composition of k, the first so many rows of each matrix are independent.
-fn quality(points: &dyn PointSet, m: u32) -> u32 {
-    // Row r of matrix j as a bit mask over the columns, read off the points 1, 2, 4, …
-    let row = |j: usize, r: u32| -> u64 {
-        let digit = |k: u32| (points.coord(1 << k, j) * 2f64.powi(r as i32 + 1)) as u64 & 1;
-        (0..m).map(|k| digit(k) << k).sum()
-    };
-    let even = |k: u32| {
-        compositions(k, points.dims()).iter().all(|depths| {
-            independent(depths.iter().enumerate().flat_map(|(j, &depth)| (0..depth).map(move |r| row(j, r))))
-        })
-    };
-    m - (0..=m).take_while(|&k| even(k)).last().expect("k = 0 always holds")
-}
-
-/// Joe–Kuo points, m = 1, 2, …: checked against an independent computation for this project.
-#[test]
-fn sobol_has_the_known_quality_parameters() {
-    let known: [(usize, &[u32]); 5] = [
-        (2, &[0; 12]),
-        (3, &[0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]),
-        (4, &[0, 1, 2, 2, 2, 2, 2, 3, 3, 2, 2, 3]),
-        (5, &[0, 1, 2, 2, 2, 3, 3, 3, 3, 3, 4, 4]),
-        (7, &[0, 1, 2, 3, 2, 3, 3, 4]),
-    ];
-    for (dims, t) in known {
-        let points = build("sobol", dims, "none", 0);
-        let found: Vec<_> = (1..=t.len() as u32).map(|m| quality(&*points, m)).collect();
-        assert_eq!(found, t, "s = {dims}");
-    }
 }
 
 /// Counts points in every elementary interval of volume 2^(t − m): 2^t each, scrambled or not, and

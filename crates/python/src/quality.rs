@@ -23,6 +23,8 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(smallest_t, module)?)?;
     module.add_function(wrap_pyfunction!(star_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(star_discrepancy_cost, module)?)?;
+    module.add_function(wrap_pyfunction!(t_value, module)?)?;
+    module.add_function(wrap_pyfunction!(t_value_in_base, module)?)?;
     module.add_function(wrap_pyfunction!(triangle_discrepancy, module)?)
 }
 
@@ -191,4 +193,16 @@ fn extreme_discrepancy(py: Python<'_>, x: Points<'_>) -> PyResult<(f64, Vec<f64>
     let x = rows(&x)?;
     let found = py.detach(|| quality::extreme::extreme_discrepancy(&x));
     Ok((found.value, found.lower, found.upper, found.closed))
+}
+
+/// The quality parameter of a net in base 2, from the columns of its matrices.
+#[pyfunction]
+fn t_value(py: Python<'_>, matrices: Vec<Vec<u64>>, m: u32) -> PyResult<u32> {
+    py.detach(|| quality::t_value(&matrices, m)).map_err(raise)
+}
+
+/// The quality parameter of a net in a prime base, from the rows of digits of its matrices.
+#[pyfunction]
+fn t_value_in_base(py: Python<'_>, base: u32, matrices: Vec<Vec<Vec<u32>>>, m: u32) -> PyResult<u32> {
+    py.detach(|| quality::t_value_in_base(base, &matrices, m)).map_err(raise)
 }

@@ -70,7 +70,7 @@ def minimize_quadratic(gradient: Array, hessian: Array, x: Array) -> Array:
     """
     y = x.copy()
     free = y > 0
-    scale = max(1.0, float(np.abs(gradient).max()))
+    scale = float(np.abs(gradient).max())
     for _ in range(20 * len(x)):
         slopes = gradient + hessian @ (y - x)
         step, multiplier = _newton(slopes, hessian, free)

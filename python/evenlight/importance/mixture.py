@@ -78,9 +78,10 @@ class Mixture:
         return self._sample(x, component)
 
     def _sample(self, x: Array, component: Any) -> Sample:
-        logs = np.empty((len(x), len(self)))
+        logs = np.empty((len(self), len(x)))
         for number, proposal in enumerate(self.proposals):
-            logs[:, number] = proposal.logpdf(x)
-        largest = logs.max(axis=1)
-        np.exp(logs - largest[:, np.newaxis], out=logs)
-        return Sample(x, component, logs, np.exp(self.target.logpdf(x) - largest))
+            logs[number] = proposal.logpdf(x)
+        largest = logs.max(axis=0)
+        logs -= largest
+        np.exp(logs, out=logs)
+        return Sample(x, component, logs.T, np.exp(self.target.logpdf(x) - largest))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from evenlight.estimate import NotConvergedWarning
 from evenlight.importance import regression
 from evenlight.importance.active_set import minimize_on_simplex
 from evenlight.importance.densities.density import Array
@@ -70,6 +72,11 @@ def optimal_mixture(
     ------
     ValueError
         If shapes do not fit, numbers are not finite, densities are negative, floors exceed 1, or f p is 0 everywhere.
+
+    Warns
+    -----
+    NotConvergedWarning
+        If rounding keeps the gap from being reached.
 
     Notes
     -----
@@ -166,4 +173,8 @@ def _solve(pilot: Pilot, above: Array, gap: float, with_beta: bool) -> tuple[Arr
         if np.isin(missing[slopes[missing] > slopes[support].min()], chosen).all():
             tolerance = max(tolerance / 100, 1e-16)  # none is missing: the face's own minimum was not exact enough
         chosen = np.union1d(support, missing)
+    if reached > gap:
+        warnings.warn(
+            f"the weights have a duality gap of {reached:.2g}, not {gap:g}", NotConvergedWarning, stacklevel=3
+        )
     return best, reached

@@ -9,13 +9,16 @@ from typing import Any, NamedTuple, SupportsIndex
 from evenlight import _core
 
 from .correlated_multi_jittered import CorrelatedMultiJittered
+from .digital_net import DigitalNet
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
 from .halton import Halton
 from .independent import Independent
+from .interlaced_sobol import InterlacedSobol
 from .latin_hypercube import LatinHypercube
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
+from .niederreiter_xing import NiederreiterXing
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
@@ -27,13 +30,16 @@ from .sz import Sz
 __all__ = [
     "SEQUENCES",
     "CorrelatedMultiJittered",
+    "DigitalNet",
     "Dyadic",
     "Engine",
     "Halton",
     "Independent",
+    "InterlacedSobol",
     "LatinHypercube",
     "MersenneTwister",
     "MultiJittered",
+    "NiederreiterXing",
     "OrthogonalArray",
     "Pcg",
     "Philox",
@@ -52,6 +58,9 @@ SEQUENCES: dict[str, type[Engine]] = {
         Sobol,
         Halton,
         Independent,
+        NiederreiterXing,
+        InterlacedSobol,
+        DigitalNet,
         Dyadic,
         Sz,
         ProgressiveMultiJittered,

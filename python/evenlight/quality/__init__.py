@@ -1,6 +1,6 @@
 """How even points are, and what that says of an integral: measures of any points of the unit cube.
 
-All take an array of shape (n, d) with numbers in [0, 1], whoever made it.
+All but `t_value`, which is about nets, take an array of shape (n, d) with numbers in [0, 1], whoever made it.
 """
 
 from .boxes import EmptyBox, ExtremeDiscrepancy, dispersion, extreme_discrepancy
@@ -11,6 +11,7 @@ from .nets import gain_coefficients, is_net, smallest_t
 from .sensitivity import SobolIndices, sobol_indices
 from .spectrum import PairCorrelation, RadialSpectrum, minimum_distance, pair_correlation, periodogram, radial_spectrum
 from .star import StarDiscrepancy, star_discrepancy, star_discrepancy_cost
+from .t_value import t_value
 from .triangle import triangle_discrepancy
 from .variation import Variation, hardy_krause_variation, koksma_hlawka_bound
 
@@ -40,5 +41,6 @@ __all__ = [
     "sobol_indices",
     "star_discrepancy",
     "star_discrepancy_cost",
+    "t_value",
     "triangle_discrepancy",
 ]

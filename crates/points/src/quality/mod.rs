@@ -6,9 +6,10 @@
 //!   [`threshold_accepting`] (lower bounds), [`bracketing`] (upper bounds);
 //! * [`l2`]: mean squares instead of the largest error;
 //! * [`triangle`]: points in a triangle; [`extreme`] and [`dispersion`]: the worst and the largest empty of all boxes;
-//! * [`nets`]: points as nets: elementary intervals and gain coefficients.
+//! * [`nets`]: points as nets: elementary intervals and gain coefficients;
+//! * [`t_value`](mod@t_value): the quality parameter of a digital net, from its matrices.
 //!
-//! All measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
+//! All but [`t_value`](mod@t_value) measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
 
 pub mod bracketing;
 mod cuts;
@@ -26,7 +27,9 @@ mod rows;
 mod shapes;
 pub mod star;
 pub mod sweep;
+pub mod t_value;
 pub mod threshold_accepting;
 pub mod triangle;
 
 pub use rows::Rows;
+pub use t_value::{t_value, t_value_in_base};

@@ -4,13 +4,16 @@
 //! golden values, the Python names and the error messages follow from the list.
 
 pub mod correlated_multi_jittered;
+pub mod digital_net;
 pub mod dyadic;
 pub mod halton;
 pub mod independent;
+pub mod interlaced_sobol;
 pub mod latin_hypercube;
 #[cfg(feature = "generators")]
 pub mod mersenne_twister;
 pub mod multi_jittered;
+pub mod niederreiter_xing;
 pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
@@ -73,18 +76,24 @@ pub struct Options {
     pub strength: Option<u32>,
     /// The generator of a lattice, one number or one for each dimension.
     pub generator: Option<Vec<u64>>,
+    /// The generating matrices of a digital net, one for each dimension: the numbers that write their columns.
+    pub matrices: Option<Vec<Vec<u64>>>,
+    /// The digits of a column of these matrices; the first is the most significant of so many bits.
+    pub bits: Option<u32>,
 }
 
 impl Options {
     /// The names of the options that are given.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
-        let Self { n, base, order, strength, generator } = self;
+        let Self { n, base, order, strength, generator, matrices, bits } = self;
         let all = [
             ("n", n.is_some()),
             ("base", base.is_some()),
             ("order", order.is_some()),
             ("strength", strength.is_some()),
             ("generator", generator.is_some()),
+            ("matrices", matrices.is_some()),
+            ("bits", bits.is_some()),
         ];
         all.into_iter().filter_map(|(name, given)| given.then_some(name))
     }
@@ -95,6 +104,9 @@ pub static ALL: &[&Entry] = &[
     &sobol::ENTRY,
     &halton::ENTRY,
     &independent::ENTRY,
+    &niederreiter_xing::ENTRY,
+    &interlaced_sobol::ENTRY,
+    &digital_net::ENTRY,
     &dyadic::ENTRY,
     &sz::ENTRY,
     &progressive_multi_jittered::ENTRY,

@@ -1,6 +1,7 @@
 //! One example of every sequence with every randomization it takes: what the laws run on.
 
 use evenlight_points::scramble::Randomization;
+use evenlight_points::sequences::sobol::direction_numbers;
 use evenlight_points::sequences::{self, Entry, Options, Spec};
 use evenlight_points::{PointSet, Seed};
 
@@ -21,7 +22,11 @@ pub(crate) fn options(name: &str, dims: usize) -> Options {
         "mersenne_twister" => Some(5000), // it cannot skip rows
         _ => None,
     };
-    Options { n, ..Options::default() }
+    let net = name == "digital_net";
+    // Sobol' points, cut to 2^20 points and 40 digits.
+    let columns = |dim| direction_numbers(dim)[..20].iter().map(|column| column >> 24).collect();
+    let matrices = net.then(|| (0..dims).map(columns).collect());
+    Options { n, matrices, bits: net.then_some(40), ..Options::default() }
 }
 
 /// A registered sequence, of as many of the dimensions as it has.

@@ -7,7 +7,7 @@ from typing import Any, Self
 import numpy as np
 from scipy import linalg, special, stats
 
-from .density import LEAST, Array, Density
+from .density import LEAST, Array, Density, weighted_moments
 
 __all__ = ["Normal"]
 
@@ -59,8 +59,17 @@ class Normal(Density):
 
     def logpdf(self, x: Array) -> Array:
         """The logarithm of the density at points."""
-        standard = (x - self.mean) @ self._inverse_root.T
-        return np.asarray(self._constant - 0.5 * np.einsum("ij,ij->i", standard, standard))
+        return np.asarray(self._constant - 0.5 * self.squares(x))
+
+    def squares(self, x: Array) -> Array:
+        """Squared distances from the mean, in units of the covariance (Mahalanobis)."""
+        standard = x @ self._inverse_root.T - self._inverse_root @ self.mean
+        return np.asarray(np.einsum("ij,ij->i", standard, standard))
+
+    def fitted(self, x: Array, weights: Array) -> Normal:
+        """The normal with mean and covariance of weighted points."""
+        moments = weighted_moments(x, weights)
+        return self if moments is None else Normal(*moments)
 
     @classmethod
     def adopt(cls, thing: Any) -> Self | None:

@@ -7,7 +7,7 @@ from typing import Any, Self
 import numpy as np
 from scipy import special, stats
 
-from .density import LEAST, Array, Density
+from .density import LEAST, Array, Density, weighted_moments
 from .normal import Normal
 
 __all__ = ["StudentT"]
@@ -65,9 +65,13 @@ class StudentT(Density):
 
     def logpdf(self, x: Array) -> Array:
         """The logarithm of the density at points."""
-        standard = (x - self.location) @ self._normal._inverse_root.T
-        squares = np.einsum("ij,ij->i", standard, standard)
-        return np.asarray(self._constant - 0.5 * (self.df + self.d) * np.log1p(squares / self.df))
+        return np.asarray(self._constant - 0.5 * (self.df + self.d) * np.log1p(self._normal.squares(x) / self.df))
+
+    def fitted(self, x: Array, weights: Array) -> StudentT:
+        """A step towards the most likely location and shape for weighted points, with the same degrees of freedom."""
+        scale = (self.df + self.d) / (self.df + self._normal.squares(x))
+        moments = weighted_moments(x, weights, scale)
+        return self if moments is None else StudentT(*moments, self.df)
 
     @classmethod
     def adopt(cls, thing: Any) -> Self | None:
