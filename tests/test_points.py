@@ -29,6 +29,7 @@ ENGINES: list[tuple[str, dict[str, Any]]] = [
 IDS = [f"{name}-{settings.get('scramble', 'none')}" for name, settings in ENGINES]
 BALANCE = pytest.mark.filterwarnings("ignore:.*are balanced in powers of.*:UserWarning")  # bases are not all 2
 
+
 def every_engine(test: Callable[..., None]) -> Callable[..., None]:
     """Run a test on every sequence with every scramble."""
     run: Callable[..., None] = BALANCE(pytest.mark.parametrize(("name", "settings"), ENGINES, ids=IDS)(test))

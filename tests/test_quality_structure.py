@@ -12,6 +12,8 @@ from evenlight import points, quality
 
 Array = npt.NDArray[np.float64]
 
+DISKS: Any = "disks"
+
 
 @pytest.mark.parametrize("corners", [np.eye(3), [[0, 0], [1, 0], [0, 1]], [[3, 1, 4, 1], [5, 9, 2, 6], [-5, 3, 5, 8]]])
 def test_the_discrepancy_of_a_triangle_does_not_depend_on_its_shape(corners: Any) -> None:
@@ -19,8 +21,8 @@ def test_the_discrepancy_of_a_triangle_does_not_depend_on_its_shape(corners: Any
     barycentric = np.random.default_rng(2).dirichlet([1, 1, 1], n)
     x = barycentric @ np.asarray(corners, dtype=np.float64)
     for sets in ("parallelograms", "trapezoids"):
-        wanted = quality.triangle_discrepancy(barycentric, np.eye(3), sets=sets)  # type: ignore[arg-type]
-        assert quality.triangle_discrepancy(x, corners, sets=sets) == pytest.approx(wanted, abs=1e-12)  # type: ignore[arg-type]
+        wanted = quality.triangle_discrepancy(barycentric, np.eye(3), sets=sets)
+        assert quality.triangle_discrepancy(x, corners, sets=sets) == pytest.approx(wanted, abs=1e-12)
     order = [2, 0, 1]
     assert quality.triangle_discrepancy(x, np.asarray(corners)[order]) == pytest.approx(
         quality.triangle_discrepancy(x, corners), abs=1e-12
@@ -107,13 +109,13 @@ def test_boxes_anywhere() -> None:
         (
             lambda: quality.triangle_discrepancy([[0, 0]], [[0, 0], [1, 0], [0, 1]], sets="disks"),
             "unknown sets 'disks'",
-        ),  # type: ignore[arg-type]
+        ),
         (lambda: quality.smallest_t(np.zeros((5, 1))), "a power of 2 of points, not 5"),
         (lambda: quality.smallest_t(np.zeros((4, 1)), base=1), "a base must be at least 2"),
         (lambda: quality.gain_coefficients([[0.5]], [1]), "coordinates must be different numbers from 0 to 0"),
         (lambda: quality.gain_coefficients([[0.5]], [0], base=1), "base must be at least 2, not 1"),
         (lambda: quality.minimum_distance([[0.5]]), "at least two points"),
-        (lambda: quality.minimum_distance([[0.5], [2]]), r"must be in \[0, 1\]"),
+        (lambda: quality.minimum_distance([[0.5], [2.0]]), r"must be in \[0, 1\]"),
         (lambda: quality.periodogram([[0.5]]), r"shape \(n, 2\)"),
         (lambda: quality.pair_correlation([[0, 0], [0, 1]], most=0.6), r"most must be in \(0, 0.5\], not 0.6"),
         (lambda: quality.dispersion(points.Sobol(2).points(0, 512), limit=10), "more than 10 boxes"),

@@ -111,6 +111,7 @@ def lattice_error(
     generator: Sequence[int], n: int, weights: Sequence[float], space_name: str, smoothness: int
 ) -> float: ...
 def digital_net_error(x: NDArray[np.float64], weights: Sequence[float]) -> float: ...
+
 # --- warp ---
 
 @final

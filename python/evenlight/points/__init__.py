@@ -26,8 +26,8 @@ from .lattice import Lattice
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
 from .net_tables import read_direction_numbers, read_matrices
-from .niederreiter_xing import NiederreiterXing
 from .niederreiter import Niederreiter
+from .niederreiter_xing import NiederreiterXing
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
@@ -56,8 +56,8 @@ __all__ = [
     "Lattice",
     "MersenneTwister",
     "MultiJittered",
-    "NiederreiterXing",
     "Niederreiter",
+    "NiederreiterXing",
     "OrthogonalArray",
     "Pcg",
     "Philox",

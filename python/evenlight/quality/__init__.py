@@ -14,6 +14,8 @@ from .sensitivity import SobolIndices, sobol_indices
 from .spectrum import PairCorrelation, RadialSpectrum, minimum_distance, pair_correlation, periodogram, radial_spectrum
 from .star import StarDiscrepancy, star_discrepancy, star_discrepancy_cost
 from .t_value import t_value
+from .triangle import triangle_discrepancy
+from .variation import Variation, hardy_krause_variation, koksma_hlawka_bound
 
 __all__ = [
     "EffectiveDimension",

@@ -1,6 +1,6 @@
 """Points as textures: distances, the periodogram and its radial mean, pair correlation; all on the torus."""
 
-from typing import NamedTuple, SupportsIndex
+from typing import Any, NamedTuple, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -73,8 +73,8 @@ def minimum_distance(x: npt.ArrayLike, *, torus: bool = True) -> float:
     rows = _checked(x)
     if len(rows) < 2:
         raise ValueError("a distance needs at least two points")
-    tree = cKDTree(rows % 1.0, boxsize=1.0) if torus else cKDTree(rows)
-    distances, _ = tree.query(tree.data, k=2)
+    tree = _torus(rows) if torus else cKDTree(rows)
+    distances = np.asarray(tree.query(tree.data, k=2)[0])
     return float(distances[:, 1].min())
 
 
@@ -206,12 +206,18 @@ def pair_correlation(x: npt.ArrayLike, bins: SupportsIndex = 64, *, most: float 
     if not 0 < largest <= 0.5:
         raise ValueError(f"most must be in (0, 0.5], not {largest}")
     edges = np.linspace(0, largest, count + 1)
-    tree = cKDTree(rows % 1.0, boxsize=1.0)
+    tree = _torus(rows)
     # all ordered pairs up to each distance, the n pairs of a point with itself included
     within = tree.count_neighbors(tree, edges)
     within[0] = n
     expected = n * (n - 1) * np.pi * np.diff(edges**2)
     return PairCorrelation((edges[1:] + edges[:-1]) / 2, np.diff(within) / expected)
+
+
+def _torus(rows: npt.NDArray[np.float64]) -> Any:
+    # the stubs of SciPy know no size of a box
+    build: Any = cKDTree
+    return build(rows % 1.0, boxsize=1.0)
 
 
 def _checked(x: npt.ArrayLike) -> npt.NDArray[np.float64]:
