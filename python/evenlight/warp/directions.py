@@ -84,8 +84,8 @@ class SphericalTriangle(Warp):
 
     Notes
     -----
-    References: J. Arvo, *Stratified sampling of spherical triangles*, SIGGRAPH, 437-438 (1995), with a half-angle formula that
-    is precise for small triangles.
+    References: J. Arvo, *Stratified sampling of spherical triangles*, SIGGRAPH, 437-438 (1995), with a half-angle
+    formula that is precise for small triangles.
 
     Examples
     --------

@@ -25,8 +25,8 @@ class Gaussian(Warp):
 
     Notes
     -----
-    References: M. J. Wichura, *Algorithm AS 241: the percentage points of the normal distribution*, Appl. Statist. 37(3),
-    477-484 (1988).
+    References: M. J. Wichura, *Algorithm AS 241: the percentage points of the normal distribution*, Appl. Statist.
+    37(3), 477-484 (1988).
 
     Examples
     --------
@@ -48,7 +48,7 @@ class _Tabulated(Warp):
 
 
 class PiecewiseLinear(_Tabulated):
-    """The interval to a density that is linear between knots, by inversion: any function of one variable that is tabulated.
+    """The interval to a density that is linear between knots, by inversion: any tabulated function of one variable.
 
     Parameters
     ----------
@@ -147,8 +147,8 @@ class Image(Warp):
     Parameters
     ----------
     values : array_like, shape (height, width)
-        Densities, up to a factor: none negative, not all 0. For a map of directions by latitude, multiply the rows by the
-        sine of their distance from the pole.
+        Densities, up to a factor: none negative, not all 0. For a map of directions by latitude, multiply the rows by
+        the sine of their distance from the pole.
 
     Examples
     --------
@@ -178,8 +178,8 @@ class Frozen:
 
     Notes
     -----
-    Numbers stand for intervals of 2^-53, of which the middle is taken. Where a distribution is discrete, `invert` gives the upper end
-    of what leads to a point. As precise and as fast as SciPy's `ppf`, `cdf`, and `pdf` or `pmf`.
+    Numbers stand for intervals of 2^-53, of which the middle is taken. Where a distribution is discrete, `invert` gives
+    the upper end of what leads to a point. As precise and as fast as SciPy's `ppf`, `cdf`, and `pdf` or `pmf`.
 
     Examples
     --------

@@ -22,11 +22,14 @@ class DiskPolar(Warp):
 
 
 class DiskConcentric(Warp):
-    """The square to the unit disk, squares to circles: continuous, with little distortion. Prefer it for well-spread points.
+    """The square to the unit disk, squares to circles: continuous, with little distortion.
+
+    Prefer it for well-spread points.
 
     Notes
     -----
-    References: P. Shirley and K. Chiu, *A low distortion map between disk and square*, J. Graph. Tools 2(3), 45-52 (1997).
+    References: P. Shirley and K. Chiu, *A low distortion map between disk and square*, J. Graph. Tools 2(3), 45-52
+    (1997).
 
     Examples
     --------
@@ -110,7 +113,8 @@ class Torus(Warp):
 
     Notes
     -----
-    References: P. Diaconis, S. Holmes and M. Shahshahani, *Sampling from a manifold*, IMS Collections 10, 102-125 (2013).
+    References: P. Diaconis, S. Holmes and M. Shahshahani, *Sampling from a manifold*, IMS Collections 10, 102-125
+    (2013).
 
     Examples
     --------
