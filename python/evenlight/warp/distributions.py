@@ -232,8 +232,8 @@ class Frozen:
         numbers = self._columns("u", u)
         if numbers.size and not (numbers.min() >= 0 and numbers.max() < 1):
             raise ValueError(f"u must be in [0, 1), not from {numbers.min()} to {numbers.max()}")
-        # beyond 1/2, where 2^-54 is below the last digit, this changes nothing
-        return self._each("ppf", numbers + 2.0**-54)
+        # near 1, where 2^-54 is half of the last digit, the sum must not become 1
+        return self._each("ppf", np.minimum(numbers + 2.0**-54, 1 - 2.0**-53))
 
     def density(self, x: Any) -> Any:
         """The density of mapped uniform numbers, or their probability where a distribution is discrete.
