@@ -164,7 +164,9 @@ fn finish_body(digits: &[Digit], cell: u64, words: &[u64], fractions: &[u64], ou
         match digits.last() {
             None => sums = rests,
             Some(last) => {
-                sums.iter_mut().zip(rests).for_each(|(sum, rest)| *sum += product_high(rest, last.worth))
+                for (sum, rest) in sums.iter_mut().zip(rests) {
+                    *sum += product_high(rest, last.worth);
+                }
             }
         }
         let mut units = [0.0; LINE];
