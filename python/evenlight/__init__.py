@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import importance, integrands, lab, points, quality
+from evenlight import importance, integrands, lab, points, quality, warp
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -27,4 +27,5 @@ __all__ = [
     "points",
     "quality",
     "render",
+    "warp",
 ]

@@ -145,6 +145,18 @@ fn l2_discrepancy(
     py.detach(|| l2::l2_discrepancy(&x, &request)).map_err(raise)
 }
 
+/// The quality parameter of a net in base 2, from the columns of its matrices.
+#[pyfunction]
+fn t_value(py: Python<'_>, matrices: Vec<Vec<u64>>, m: u32) -> PyResult<u32> {
+    py.detach(|| quality::t_value(&matrices, m)).map_err(raise)
+}
+
+/// The quality parameter of a net in a prime base, from the rows of digits of its matrices.
+#[pyfunction]
+fn t_value_in_base(py: Python<'_>, base: u32, matrices: Vec<Vec<Vec<u32>>>, m: u32) -> PyResult<u32> {
+    py.detach(|| quality::t_value_in_base(base, &matrices, m)).map_err(raise)
+}
+
 /// The worst set of a triangle: its discrepancy, s and t, whether it is closed, and the numbers of two corners.
 #[pyfunction]
 fn triangle_discrepancy(
@@ -193,16 +205,4 @@ fn extreme_discrepancy(py: Python<'_>, x: Points<'_>) -> PyResult<(f64, Vec<f64>
     let x = rows(&x)?;
     let found = py.detach(|| quality::extreme::extreme_discrepancy(&x));
     Ok((found.value, found.lower, found.upper, found.closed))
-}
-
-/// The quality parameter of a net in base 2, from the columns of its matrices.
-#[pyfunction]
-fn t_value(py: Python<'_>, matrices: Vec<Vec<u64>>, m: u32) -> PyResult<u32> {
-    py.detach(|| quality::t_value(&matrices, m)).map_err(raise)
-}
-
-/// The quality parameter of a net in a prime base, from the rows of digits of its matrices.
-#[pyfunction]
-fn t_value_in_base(py: Python<'_>, base: u32, matrices: Vec<Vec<Vec<u32>>>, m: u32) -> PyResult<u32> {
-    py.detach(|| quality::t_value_in_base(base, &matrices, m)).map_err(raise)
 }

@@ -1,11 +1,13 @@
 """How even points are, and what that says of an integral: measures of any points of the unit cube.
 
-All but `t_value`, which is about nets, take an array of shape (n, d) with numbers in [0, 1], whoever made it.
+All but `t_value` and `lattice_error`, which are about nets and lattices, take an array of shape (n, d) with numbers
+in [0, 1], whoever made it.
 """
 
 from .boxes import EmptyBox, ExtremeDiscrepancy, dispersion, extreme_discrepancy
 from .effective import EffectiveDimension, effective_dimension
 from .l2 import discrepancy
+from .lattice_criteria import digital_net_error, lattice_error
 from .local import local_discrepancy
 from .nets import gain_coefficients, is_net, smallest_t
 from .sensitivity import SobolIndices, sobol_indices
@@ -24,6 +26,7 @@ __all__ = [
     "SobolIndices",
     "StarDiscrepancy",
     "Variation",
+    "digital_net_error",
     "discrepancy",
     "dispersion",
     "effective_dimension",
@@ -32,6 +35,7 @@ __all__ = [
     "hardy_krause_variation",
     "is_net",
     "koksma_hlawka_bound",
+    "lattice_error",
     "local_discrepancy",
     "minimum_distance",
     "pair_correlation",

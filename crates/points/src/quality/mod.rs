@@ -7,9 +7,10 @@
 //! * [`l2`]: mean squares instead of the largest error;
 //! * [`triangle`]: points in a triangle; [`extreme`] and [`dispersion`]: the worst and the largest empty of all boxes;
 //! * [`nets`]: points as nets: elementary intervals and gain coefficients;
+//! * [`lattice_criteria`]: worst-case errors of lattices and nets in weighted spaces of functions;
 //! * [`t_value`](mod@t_value): the quality parameter of a digital net, from its matrices.
 //!
-//! All but [`t_value`](mod@t_value) measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
+//! All but the last two measure any rows of numbers in [0, 1], whoever made them; points on the upper boundary are legal here.
 
 pub mod bracketing;
 mod cuts;
@@ -20,6 +21,7 @@ pub mod extreme;
 mod halves;
 mod kinetic;
 pub mod l2;
+pub mod lattice_criteria;
 pub mod local;
 pub mod nets;
 mod pairs;
