@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -80,3 +81,44 @@ def test_matrices_that_are_none_are_refused() -> None:
         DigitalNet(matrices=[[1, 4]], bits=2)
     with pytest.raises(ValueError, match="one list of columns for each of 3 dimensions, not 1"):
         DigitalNet(3, matrices=[[1, 2]], bits=2)
+
+
+def test_direction_numbers_of_others_are_read(tmp_path: Path) -> None:
+    # The first lines of new-joe-kuo-6 as published, and one of tkrg-a-ap5.
+    path = tmp_path / "numbers"
+    path.write_text(
+        "d       s       a       m_i\n2 1 0 1\n3 2 1 1 3\n4 3 1 1 3 1\n5 3 2 1 1 1\n6 4 1 1 1 3 3\n7 4 4 1 3 7 1\n"
+    )
+    columns = points.read_direction_numbers(path)
+    np.testing.assert_array_equal(columns[:6], Sobol(6).generating_matrices())
+    assert columns.shape == (7, 64)
+    np.testing.assert_array_equal(columns[6, :4] >> np.uint64(60), [8, 12, 14, 1])
+    np.testing.assert_array_equal(points.read_direction_numbers(path, 3), columns[:3])
+    with pytest.raises(ValueError, match="has 7 dimensions, not 8"):
+        points.read_direction_numbers(path, 8)
+    for line in ("2 1 0 2", "2 2 1 1", "3 1 0 1", "2 2 2 1 3"):
+        path.write_text(line)
+        with pytest.raises(ValueError, match=r"dimension 2: the line must be d s a m_1 \.\.\. m_s"):
+            points.read_direction_numbers(path)
+
+
+def test_nets_of_others_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "net"
+    path.write_text("# dnetup\n2 # base\n2 # dimensions\n4 # points\n3 # digits\n4 2\n4 6\n")
+    matrices, bits = points.read_matrices(path)
+    assert (matrices.tolist(), bits) == ([[4, 2], [4, 6]], 3)
+    assert t_value(matrices << np.uint64(61), 2) == 0
+    path.write_text("3\n1\n4\n3\n4 2\n")
+    with pytest.raises(ValueError, match="base 3, not 2"):
+        points.read_matrices(path)
+    path.write_text("2\n2\n4\n3\n4 2\n")
+    with pytest.raises(ValueError, match=r"must have base, d, 2\^m and digits, then d lines of m columns"):
+        points.read_matrices(path)
+
+
+def test_interlaced_matrices_are_those_of_the_magic_point_shop() -> None:
+    """The first and last columns of its sobol_alpha3_Bs53 (D. Nuyens), 53 digits of each."""
+    columns = InterlacedSobol(3, order=3).generating_matrices() >> np.uint64(11)
+    assert columns[0, :3].tolist() == [7881299347898368, 4362862139015168, 2515682604351488]
+    assert columns[1, :3].tolist() == [7881299347898368, 5488762045857792, 263882790666240]
+    assert columns[:, 31].tolist() == [3840157793161801, 3003865835434477, 8444362064792170]

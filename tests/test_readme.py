@@ -80,6 +80,7 @@ def test_set_up_is_two_commands() -> None:
 FAMILIES = {
     "sequences": [info.name for info in points.available()],
     "scrambles": _core.scrambles(),
+    "warps": _core.warps(),
     "rules": list(rules.RULES),
     "integrands": list(integrands.INTEGRANDS),
     "domains": list(domains.DOMAINS),

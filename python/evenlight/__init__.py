@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import domains, importance, integrands, lab, points, quality, reduction
+from evenlight import domains, importance, integrands, lab, points, quality, reduction, warp
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -29,4 +29,5 @@ __all__ = [
     "quality",
     "reduction",
     "render",
+    "warp",
 ]

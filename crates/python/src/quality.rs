@@ -7,6 +7,7 @@ use evenlight_points::quality::bracketing::Limits;
 use evenlight_points::quality::l2::{self, Algorithm, Measure, Request};
 use evenlight_points::quality::star::{self, Kind, Method, Settings};
 use evenlight_points::quality::threshold_accepting::Effort;
+use evenlight_points::quality::triangle::{self, Sets};
 use evenlight_points::quality::{self, Rows};
 use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -14,12 +15,17 @@ use pyo3::prelude::*;
 
 /// Adds this room to the extension module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(dispersion, module)?)?;
+    module.add_function(wrap_pyfunction!(extreme_discrepancy, module)?)?;
+    module.add_function(wrap_pyfunction!(gain_coefficient, module)?)?;
     module.add_function(wrap_pyfunction!(l2_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(local_discrepancy, module)?)?;
+    module.add_function(wrap_pyfunction!(smallest_t, module)?)?;
     module.add_function(wrap_pyfunction!(star_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(star_discrepancy_cost, module)?)?;
     module.add_function(wrap_pyfunction!(t_value, module)?)?;
-    module.add_function(wrap_pyfunction!(t_value_in_base, module)?)
+    module.add_function(wrap_pyfunction!(t_value_in_base, module)?)?;
+    module.add_function(wrap_pyfunction!(triangle_discrepancy, module)?)
 }
 
 /// Points, one in a row.
@@ -149,4 +155,54 @@ fn t_value(py: Python<'_>, matrices: Vec<Vec<u64>>, m: u32) -> PyResult<u32> {
 #[pyfunction]
 fn t_value_in_base(py: Python<'_>, base: u32, matrices: Vec<Vec<Vec<u32>>>, m: u32) -> PyResult<u32> {
     py.detach(|| quality::t_value_in_base(base, &matrices, m)).map_err(raise)
+}
+
+/// The worst set of a triangle: its discrepancy, s and t, whether it is closed, and the numbers of two corners.
+#[pyfunction]
+fn triangle_discrepancy(
+    py: Python<'_>,
+    barycentric: Points<'_>,
+    sets: &str,
+) -> PyResult<(f64, Vec<f64>, bool, [usize; 2])> {
+    let sets = match sets {
+        "parallelograms" => Sets::Parallelograms,
+        "trapezoids" => Sets::Trapezoids,
+        _ => {
+            let message = format!("unknown sets '{sets}'; known: parallelograms, trapezoids");
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    let points = barycentric.as_slice()?.as_chunks().0;
+    let found = py.detach(|| triangle::triangle_discrepancy(points, sets)).map_err(raise)?;
+    Ok((found.worst.value, found.worst.corner, found.worst.closed, found.corners))
+}
+
+/// The smallest t such that the points are a net.
+#[pyfunction]
+fn smallest_t(py: Python<'_>, x: Points<'_>, base: u32) -> PyResult<u32> {
+    let x = rows(&x)?;
+    py.detach(|| quality::nets::smallest_t(&x, base)).map_err(raise)
+}
+
+/// The gain coefficient of one vector of levels.
+#[pyfunction]
+fn gain_coefficient(py: Python<'_>, x: Points<'_>, levels: Vec<Option<u32>>, base: u32) -> PyResult<f64> {
+    let x = rows(&x)?;
+    py.detach(|| quality::nets::gain_coefficient(&x, &levels, base)).map_err(raise)
+}
+
+/// The volume of the largest empty box, and where it is.
+#[pyfunction]
+fn dispersion(py: Python<'_>, x: Points<'_>, limit: usize) -> PyResult<(f64, Vec<f64>, Vec<f64>)> {
+    let x = rows(&x)?;
+    let found = py.detach(|| quality::dispersion::dispersion(&x, limit)).map_err(raise)?;
+    Ok((found.volume, found.lower, found.upper))
+}
+
+/// The extreme discrepancy, the box that attains it, and whether that is closed.
+#[pyfunction]
+fn extreme_discrepancy(py: Python<'_>, x: Points<'_>) -> PyResult<(f64, Vec<f64>, Vec<f64>, bool)> {
+    let x = rows(&x)?;
+    let found = py.detach(|| quality::extreme::extreme_discrepancy(&x));
+    Ok((found.value, found.lower, found.upper, found.closed))
 }

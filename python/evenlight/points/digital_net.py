@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, SupportsIndex
 
+import numpy as np
 import numpy.typing as npt
 
 from .engine import Engine
@@ -14,7 +15,8 @@ __all__ = ["DigitalNet"]
 class DigitalNet(Engine):
     """A digital net in base 2 from generating matrices of your own, with all scrambles and at the speed of `Sobol`.
 
-    Choose it for nets from a search or a table, such as those of LatNet Builder or the LDData collection.
+    Choose it for nets from a search or a table, such as those of LatNet Builder or the LDData collection;
+    `read_matrices` and `read_direction_numbers` read files of theirs.
     `evenlight.quality.t_value` says how even the net is.
 
     Parameters
@@ -66,9 +68,10 @@ class DigitalNet(Engine):
     def __init__(
         self, d: SupportsIndex | None = None, *, matrices: npt.ArrayLike, bits: SupportsIndex, **arguments: Any
     ) -> None:
-        try:
-            rows = [list(columns) for columns in matrices]  # type: ignore[union-attr, arg-type]  # said below
-        except TypeError:
-            raise TypeError("matrices must be a list of columns for each dimension") from None
-        dims = len(rows) if d is None else d
-        super().__init__(dims, matrices=rows[: dims.__index__()], bits=bits, **arguments)
+        if not isinstance(matrices, np.ndarray):
+            try:
+                matrices = [list(columns) for columns in matrices]  # type: ignore[union-attr, arg-type]  # said below
+            except TypeError:
+                raise TypeError("matrices must be a list of columns for each dimension") from None
+        dims = len(matrices) if d is None else d
+        super().__init__(dims, matrices=matrices[: dims.__index__()], bits=bits, **arguments)

@@ -344,6 +344,8 @@ def _threads(workers: SupportsIndex) -> int:
 
 def _plain(name: str, value: Any) -> Any:
     """Turn an option into the plain value it stands for: an integer, or lists of integers."""
+    if isinstance(value, np.ndarray) and value.dtype.kind == "u":
+        return value.tolist()
     if np.iterable(value) and not isinstance(value, str):
         return [_plain(name, part) for part in value]
     return _integer(name, value, 0)

@@ -2,4 +2,5 @@
 
 pub(crate) mod direction_numbers;
 #[cfg(feature = "std")]
+pub(crate) mod generating_vectors;
 pub(crate) mod niederreiter_xing;

@@ -221,7 +221,7 @@ impl<'a> Search<'a> {
         let (mut cell, mut ways, mut steps) = (self.root(), 1.0, 0.0);
         while cell.ranges.len() + 1 < self.cuts.dims {
             let mut children = self.children(&mut cell, known);
-            steps += ways * children.iter().map(|child| child.live.len() as f64 + 16.0).sum::<f64>();
+            steps += ways * children.iter().map(|child| child.live.len() as f64 + 64.0).sum::<f64>();
             if children.is_empty() {
                 return steps;
             }

@@ -48,7 +48,7 @@ impl Leaf<'_> {
     pub(super) fn steps(&self, known: f64) -> f64 {
         let sides = [self.may_have(known), self.may_lack(known)];
         let one = |most: usize| self.live.len() as f64 + ((self.live.len() - self.below) * (most + 1)) as f64;
-        4.0 + sides.into_iter().flatten().map(one).sum::<f64>()
+        8.0 + sides.into_iter().flatten().map(one).sum::<f64>()
     }
 
     /// Replaces `best` by a worse box of this cell, if there is one.

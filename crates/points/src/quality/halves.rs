@@ -27,7 +27,7 @@ pub(super) fn sum_by_halves<S: Shape>(columns: &Columns<S>) -> f64 {
 pub(super) fn cost<S: Shape>(n: usize, dims: usize) -> f64 {
     let levels = (n as f64 / 64.0).log2().max(0.0);
     let per_point: f64 = (1..dims).map(|level| S::TERMS as f64 * levels / level as f64).product();
-    n as f64 * (100.0 + 20.0 * per_point)
+    n as f64 * (200.0 + 40.0 * per_point)
 }
 
 fn key<S: Shape>(columns: &Columns<S>, dim: usize, i: u32) -> f64 {

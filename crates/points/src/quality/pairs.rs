@@ -1,7 +1,8 @@
 //! The sum over all pairs of points of a product over coordinates: every pair once, many at a time.
 //!
-//! O(n² d / 2). Blocks of points against blocks of points, sixteen partners together; each block has a sum of its own and the
-//! sums are added in a fixed order, so that neither threads nor instruction sets change a bit.
+//! O(n² d / 2). Blocks of points against blocks of points: a point meets all partners of a block at once, in plain loops over
+//! arrays of one length, which become vector instructions. Every partner has a sum of its own, and sums are added in a fixed
+//! order, so that neither threads nor instruction sets change a bit.
 
 use std::marker::PhantomData;
 use std::num::NonZeroUsize;
@@ -10,16 +11,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::shapes::Shape;
 use crate::instruction_sets::for_this_machine;
 
-/// Partners that are treated together.
-const LANES: usize = 16;
-
 /// Points of a block: their numbers stay in the first cache.
-const BLOCK: usize = 256;
+const BLOCK: usize = 128;
+
+/// One number for each point of a block.
+type Block = [f64; BLOCK];
 
 /// The numbers a and b of all points, coordinate by coordinate, and g of each coordinate, for factors of one shape.
 pub(super) struct Columns<S> {
     pub(super) n: usize,
-    /// For each coordinate all a, filled up to whole lanes, then all b.
+    /// For each coordinate all a, filled up to whole blocks, then all b.
     numbers: Vec<f64>,
     pub(super) g: Vec<f64>,
     shape: PhantomData<S>,
@@ -28,7 +29,7 @@ pub(super) struct Columns<S> {
 impl<S: Shape> Columns<S> {
     /// `number(i, j)` gives a and b of coordinate j of point i.
     pub(super) fn new(n: usize, g: Vec<f64>, number: impl Fn(usize, usize) -> [f64; 2]) -> Self {
-        let stride = n.next_multiple_of(LANES);
+        let stride = n.next_multiple_of(BLOCK);
         let mut numbers = vec![0.0; 2 * stride * g.len()];
         for (dim, column) in numbers.chunks_exact_mut(2 * stride).enumerate() {
             for i in 0..n {
@@ -41,7 +42,7 @@ impl<S: Shape> Columns<S> {
     /// All a and all b of a coordinate.
     #[inline(always)]
     fn column(&self, dim: usize) -> (&[f64], &[f64]) {
-        let stride = self.n.next_multiple_of(LANES);
+        let stride = self.n.next_multiple_of(BLOCK);
         self.numbers[2 * stride * dim..][..2 * stride].split_at(stride)
     }
 
@@ -98,39 +99,73 @@ for_this_machine! {
 
 #[inline(always)]
 fn blocks<S: Shape>(columns: &Columns<S>, i: usize, j: usize, out: &mut f64) {
-    let (i_end, j_end) = ((i + BLOCK).min(columns.n), (j + BLOCK).min(columns.n));
-    let mut sums = [0.0; LANES];
-    for own in i..i_end {
-        for start in (j..j_end).step_by(LANES) {
-            let products = products(columns, own, start);
-            if start + LANES <= j_end {
-                for lane in 0..LANES {
-                    sums[lane] += products[lane];
-                }
-            } else {
-                for lane in 0..j_end - start {
-                    sums[lane] += products[lane];
-                }
+    let (mut totals, mut products) = ([0.0; BLOCK], [1.0; BLOCK]);
+    let dims = columns.g.len();
+    let rest = (dims - 1) % CHUNK + 1;
+    for own in i..(i + BLOCK).min(columns.n) {
+        if dims > CHUNK {
+            products = [1.0; BLOCK];
+            for dim in (rest..dims).step_by(CHUNK) {
+                multiply::<S, CHUNK>(columns, [own, j], dim, &mut products);
             }
         }
-    }
-    *out = pairwise(&sums);
-}
-
-/// The products of one point with the next lanes of others.
-#[inline(always)]
-fn products<S: Shape>(columns: &Columns<S>, own: usize, start: usize) -> [f64; LANES] {
-    let mut products = [1.0; LANES];
-    for (dim, &g) in columns.g.iter().enumerate() {
-        let (a, b) = columns.column(dim);
-        let mine = [a[own], b[own]];
-        let (a, b): (&[f64; LANES], &[f64; LANES]) = (
-            a[start..][..LANES].try_into().expect("whole lanes"),
-            b[start..][..LANES].try_into().expect("whole lanes"),
-        );
-        for lane in 0..LANES {
-            products[lane] *= S::factor(mine, [a[lane], b[lane]], g);
+        match rest {
+            1 => add::<S, 1>(columns, [own, j], &products, &mut totals),
+            2 => add::<S, 2>(columns, [own, j], &products, &mut totals),
+            3 => add::<S, 3>(columns, [own, j], &products, &mut totals),
+            _ => add::<S, CHUNK>(columns, [own, j], &products, &mut totals),
         }
     }
-    products
+    *out = pairwise(&totals[..(columns.n - j).min(BLOCK)]);
+}
+
+/// Coordinates that are treated together, without a product in memory.
+const CHUNK: usize = 4;
+
+/// Multiplies by the factors of some coordinates from `dim` on.
+#[inline(always)]
+fn multiply<S: Shape, const K: usize>(
+    columns: &Columns<S>,
+    [own, j]: [usize; 2],
+    dim: usize,
+    products: &mut Block,
+) {
+    let factors = factors::<S, K>(columns, own, j, dim);
+    for (place, product) in products.iter_mut().enumerate() {
+        *product *= factors(place);
+    }
+}
+
+/// Adds the products, times the factors of the first coordinates.
+#[inline(always)]
+fn add<S: Shape, const K: usize>(
+    columns: &Columns<S>,
+    [own, j]: [usize; 2],
+    products: &Block,
+    totals: &mut Block,
+) {
+    let factors = factors::<S, K>(columns, own, j, 0);
+    for (place, total) in totals.iter_mut().enumerate() {
+        *total += products[place] * factors(place);
+    }
+}
+
+/// The product of the factors of coordinates `dim` to `dim + K`, of one point and each of the block that begins at `j`.
+#[inline(always)]
+fn factors<S: Shape, const K: usize>(
+    columns: &Columns<S>,
+    own: usize,
+    j: usize,
+    dim: usize,
+) -> impl Fn(usize) -> f64 {
+    let mine: [[f64; 2]; K] = std::array::from_fn(|k| columns.number(own, dim + k));
+    let g: [f64; K] = std::array::from_fn(|k| columns.g[dim + k]);
+    let theirs: [[&Block; 2]; K] = std::array::from_fn(|k| {
+        let (a, b) = columns.column(dim + k);
+        [a, b].map(|numbers| numbers[j..].first_chunk().expect("columns have whole blocks"))
+    });
+    move |place| {
+        let factor = |k: usize| S::factor(mine[k], theirs[k].map(|numbers| numbers[place]), g[k]);
+        (1..K).fold(factor(0), |product, k| product * factor(k))
+    }
 }

@@ -1,7 +1,7 @@
-//! What all kernels of the L2 family come down to: four shapes of a factor, for pairs and for sorted halves.
+//! What all kernels of the L2 family come down to: five shapes of a factor, for pairs and for sorted halves.
 //!
 //! A discrepancy of the L2 family sums, over all pairs of points, a product over coordinates. With two numbers a and b of
-//! each coordinate of each point, computed once, the factor has one of four shapes. Every shape is also a short sum of
+//! each coordinate of each point, computed once, the factor has one of five shapes. Every shape is also a short sum of
 //! products for points in ascending order, which is what divide and conquer lives on.
 
 /// A factor of two points; each has its own a and b, and g belongs to the coordinate.
@@ -82,5 +82,23 @@ impl Shape for Bowl {
     }
     fn terms([a, b]: [f64; 2], g: f64) -> [(f64, f64); 3] {
         [(a + (b + g) * (b + g), 1.0), (1.0, a + b * (b - 2.0 * g)), (b, -2.0 * b)]
+    }
+}
+
+/// a + (|b − b′| − g)², where all points have the same a.
+pub(super) struct Wrap;
+
+impl Shape for Wrap {
+    const TERMS: usize = 3;
+    #[inline(always)]
+    fn factor(own: [f64; 2], other: [f64; 2], g: f64) -> f64 {
+        let t = (own[1] - other[1]).abs() - g;
+        own[0] + t * t
+    }
+    fn key(own: [f64; 2]) -> f64 {
+        own[1]
+    }
+    fn terms([a, b]: [f64; 2], g: f64) -> [(f64, f64); 3] {
+        [(a + (b + g) * (b + g), 1.0), (1.0, b * (b - 2.0 * g)), (b, -2.0 * b)]
     }
 }

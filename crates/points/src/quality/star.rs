@@ -151,7 +151,7 @@ pub fn star_discrepancy(
 const FIRST_LOOK: u32 = 512;
 
 /// Random descents of an estimate.
-const PROBES: u32 = 64;
+const PROBES: u32 = 256;
 
 /// About how many steps the exact star discrepancy would take with [`Method::Dem`], of some nanoseconds each.
 pub fn star_discrepancy_cost(rows: &Rows<'_>, seed: Seed) -> f64 {

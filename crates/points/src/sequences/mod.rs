@@ -6,22 +6,31 @@
 pub mod correlated_multi_jittered;
 pub mod digital_net;
 pub mod dyadic;
+pub mod faure;
+pub mod fibonacci;
 pub mod halton;
+pub mod hammersley;
 pub mod independent;
 pub mod interlaced_sobol;
+pub mod korobov;
+pub mod kronecker;
 pub mod latin_hypercube;
+pub mod lattice;
 #[cfg(feature = "generators")]
 pub mod mersenne_twister;
 pub mod multi_jittered;
+pub mod niederreiter;
 pub mod niederreiter_xing;
 pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
 pub mod philox;
+pub mod polynomial_lattice;
 pub mod progressive_multi_jittered;
 pub mod sobol;
 pub mod stratified;
 pub mod sz;
+pub mod van_der_corput;
 
 use crate::scramble::Randomization;
 use crate::{Error, PointSet, Seed};
@@ -107,9 +116,18 @@ pub static ALL: &[&Entry] = &[
     &niederreiter_xing::ENTRY,
     &interlaced_sobol::ENTRY,
     &digital_net::ENTRY,
+    &van_der_corput::ENTRY,
+    &hammersley::ENTRY,
+    &faure::ENTRY,
+    &niederreiter::ENTRY,
     &dyadic::ENTRY,
     &sz::ENTRY,
     &progressive_multi_jittered::ENTRY,
+    &lattice::ENTRY,
+    &polynomial_lattice::ENTRY,
+    &kronecker::ENTRY,
+    &korobov::ENTRY,
+    &fibonacci::ENTRY,
     &latin_hypercube::ENTRY,
     &orthogonal_array::ENTRY,
     &stratified::ENTRY,

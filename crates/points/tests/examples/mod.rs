@@ -9,6 +9,7 @@ use evenlight_points::{PointSet, Seed};
 pub(crate) fn options(name: &str, dims: usize) -> Options {
     let n = match name {
         "latin_hypercube" | "multi_jittered" | "correlated_multi_jittered" => Some(1200),
+        "hammersley" => Some(1 << 14),
         // What no number of points could be made of in many dimensions has a single one.
         "stratified" => Some(if dims > 12 {
             1
@@ -19,6 +20,8 @@ pub(crate) fn options(name: &str, dims: usize) -> Options {
             let primes = (dims.max(12) as u64 - 1..).filter(|p| (2..*p).all(|divisor| p % divisor > 0));
             primes.map(|p| p * p).next()
         }
+        "fibonacci" => Some(1597),
+        "korobov" => Some(1021),
         "mersenne_twister" => Some(5000), // it cannot skip rows
         _ => None,
     };
@@ -36,7 +39,9 @@ pub(crate) fn build(
     randomization: Randomization,
     seed: Seed,
 ) -> Box<dyn PointSet> {
-    let dims = dims.min(entry.most_dims);
+    // The cost of an exact scramble grows with the base, and the base with the dimension.
+    let most = if randomization == Randomization::OwenExact { 300 } else { usize::MAX };
+    let dims = dims.min(entry.most_dims).min(most);
     let spec = Spec { options: options(entry.name, dims), ..Spec::new(dims, randomization, seed) };
     sequences::build(entry.name, &spec).expect("the registry accepts its own randomizations")
 }
