@@ -1,4 +1,4 @@
-//! Where tables lie in memory: large pages for what rays touch at random.
+//! Hints to the memory: large pages for what rays touch at random, and fetching what will be needed soon.
 //!
 //! A scene's trees, triangles and texels are read all over the place. In pages of 4 KiB nearly each read also waits for the
 //! page's address; pages of 2 MiB need 512 times fewer addresses, which the processor keeps at hand.
@@ -23,4 +23,20 @@ pub(crate) fn use_large_pages<T>(table: &[T]) {
     }
     #[cfg(not(target_os = "linux"))]
     let _ = table;
+}
+
+/// Ask for the memory of a value, without waiting for it.
+#[inline(always)]
+pub(crate) fn prefetch<T>(value: &T) {
+    #[cfg(target_arch = "x86_64")]
+    for line in (0..size_of::<T>()).step_by(64) {
+        let address = std::ptr::from_ref(value).cast::<i8>().wrapping_add(line);
+        // SAFETY: a prefetch reads nothing; SSE is part of x86-64.
+        #[expect(unsafe_code, reason = "a hint that safe Rust has no word for")]
+        unsafe {
+            std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(address);
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = value;
 }

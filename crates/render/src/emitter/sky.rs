@@ -7,7 +7,7 @@
 use glam::Vec4;
 
 use crate::geometry::{Rgb, luminance};
-use crate::memory::use_large_pages;
+use crate::memory::{prefetch, use_large_pages};
 use crate::texture::image::Image;
 
 /// Cells along the side of a tile.
@@ -155,22 +155,6 @@ impl Sky {
             fraction: [x.fraction, y.fraction],
         }
     }
-}
-
-/// Ask for the memory of a value, without waiting for it.
-#[inline]
-fn prefetch<T>(value: &T) {
-    #[cfg(target_arch = "x86_64")]
-    for line in (0..size_of::<T>()).step_by(64) {
-        let address = std::ptr::from_ref(value).cast::<i8>().wrapping_add(line);
-        // SAFETY: a prefetch reads nothing; SSE is part of x86-64.
-        #[expect(unsafe_code, reason = "a hint that safe Rust has no word for")]
-        unsafe {
-            std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(address);
-        }
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = value;
 }
 
 /// The largest finite number in half precision.

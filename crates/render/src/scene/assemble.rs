@@ -9,6 +9,7 @@ use crate::emitter::{self, Emitter, SceneSphere, area::Area, selection::Selectio
 use crate::film::FilmSettings;
 use crate::geometry::Vec3;
 use crate::integrator::{Mis, Transport};
+use crate::memory::use_large_pages;
 use crate::scene::build::Builder;
 use crate::scene::node::{Kind, Node};
 use crate::scene::properties::Properties;
@@ -120,6 +121,7 @@ impl Assembly {
         let bounds = self.bounds();
         let soup = TriangleSoup { positions: &self.positions, indices: &self.indices };
         let kernel = accel::build(options.kernel, &soup, options.embree_library.as_deref())?;
+        use_large_pages(&self.triangles);
         let selection = Selection::new(&self.emitters, &bounds);
         let environments = self.emitters.iter().enumerate();
         let environments =
