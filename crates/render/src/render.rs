@@ -209,34 +209,31 @@ impl<'a> Job<'a> {
 
     /// The means of a tile's pixels; `None` when told to stop.
     fn render_tile(&self, tile: &Tile, stop: &AtomicBool) -> Option<Vec<PixelMean>> {
-        let mut sums = vec![PixelSum::default(); (tile.width * tile.height) as usize];
-        let mut wave = Vec::with_capacity(WAVE);
-        let mut places = Vec::with_capacity(WAVE);
-        // Pixels and samples may be many: neither fits into 32 bits together.
-        let all = sums.len() as u64 * u64::from(self.samples);
-        for start in (0..all).step_by(WAVE) {
-            if stop.load(Ordering::Relaxed) {
-                return None;
-            }
-            for number in start..all.min(start + WAVE as u64) {
-                let (pixel, index) = (number / u64::from(self.samples), number % u64::from(self.samples));
-                let (path, weight) = self.camera_path(tile, pixel as u32, index as u32);
-                wave.push(path);
-                places.push((pixel as usize, weight));
-            }
-            self.integrator.measure(self.scene, &mut wave);
-            for (path, (pixel, weight)) in wave.drain(..).zip(places.drain(..)) {
-                sums[pixel].add(&path.measurement, weight);
+        let mut wave = Wave::new((tile.width * tile.height) as usize);
+        let seed = self.seed.replicate(tile.replicate.into());
+        for pixel in 0..wave.sums.len() {
+            let x = self.film.crop[0] + tile.x + pixel as u32 % tile.width;
+            let y = self.film.crop[1] + tile.y + pixel as u32 / tile.width;
+            let seed = seed.pixel(x, y);
+            for index in 0..self.samples {
+                let (path, weight) = self.camera_path([x, y], seed, index);
+                wave.paths.push(path);
+                wave.places.push((pixel, weight));
+                if wave.paths.len() == WAVE {
+                    if stop.load(Ordering::Relaxed) {
+                        return None;
+                    }
+                    wave.measure(self);
+                }
             }
         }
-        Some(sums.iter().map(|sum| sum.mean(self.samples)).collect())
+        wave.measure(self);
+        Some(wave.sums.iter().map(|sum| sum.mean(self.samples)).collect())
     }
 
-    /// The path of one sample of a pixel of a tile, and the weight of the sample.
-    fn camera_path(&self, tile: &Tile, pixel: u32, index: u32) -> (CameraPath, f32) {
-        let x = self.film.crop[0] + tile.x + pixel % tile.width;
-        let y = self.film.crop[1] + tile.y + pixel / tile.width;
-        let seed = self.seed.replicate(tile.replicate.into()).pixel(x, y);
+    /// The path of one sample of a pixel, and the weight of the sample.
+    #[inline]
+    fn camera_path(&self, [x, y]: [u32; 2], seed: Seed, index: u32) -> (CameraPath, f32) {
         let mut numbers = PathNumbers::new(self.sampler, seed);
         numbers.start(index);
         let camera = numbers.camera();
@@ -246,6 +243,35 @@ impl<'a> Job<'a> {
         let film = [(x as f32 + 0.5 + dx) / width, (y as f32 + 0.5 + dy) / height];
         let ray = self.sensor.ray(film, camera.lens);
         (CameraPath { ray, numbers, measurement: Measurement::default() }, weight_x * weight_y)
+    }
+}
+
+/// Samples of a tile that are measured together, whichever pixels they belong to.
+struct Wave {
+    paths: Vec<CameraPath>,
+    /// Pixel and weight of each path.
+    places: Vec<(usize, f32)>,
+    /// Of all pixels of the tile.
+    sums: Vec<PixelSum>,
+}
+
+impl Wave {
+    fn new(pixels: usize) -> Self {
+        Self {
+            paths: Vec::with_capacity(WAVE),
+            places: Vec::with_capacity(WAVE),
+            sums: vec![PixelSum::default(); pixels],
+        }
+    }
+
+    /// Measure what has come together, and begin anew.
+    fn measure(&mut self, job: &Job<'_>) {
+        job.integrator.measure(job.scene, &mut self.paths);
+        for (path, (pixel, weight)) in self.paths.iter().zip(&self.places) {
+            self.sums[*pixel].add(&path.measurement, *weight);
+        }
+        self.paths.clear();
+        self.places.clear();
     }
 }
 

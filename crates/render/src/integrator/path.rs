@@ -129,19 +129,15 @@ impl<'a> Wave<'a> {
     fn scatter(&mut self) {
         let mut going_on = 0;
         for i in 0..self.walks.len() {
-            if let Some((walk, ray)) = self.advance(i) {
-                self.walks[going_on] = walk;
-                self.rays[going_on] = ray;
-                going_on += 1;
-            }
+            going_on += usize::from(self.advance(i, going_on).is_some());
         }
         self.walks.truncate(going_on);
         self.rays.truncate(going_on);
     }
 
-    /// One walk at its surface; `None` when it ends there.
+    /// One walk at its surface; `None` when it ends there, else it goes on in another place, not after its own.
     #[inline]
-    fn advance(&mut self, i: usize) -> Option<(Walk, Ray)> {
+    fn advance(&mut self, i: usize, place: usize) -> Option<()> {
         let (mut walk, ray, hit, chosen) = (self.walks[i], self.rays[i], self.hits[i], self.chosen[i]);
         if !self.lights_hidden() {
             let emission = walk.throughput * self.emission(&walk, &ray, hit.as_ref());
@@ -184,7 +180,9 @@ impl<'a> Wave<'a> {
             }
             walk.throughput /= survival;
         }
-        Some((walk, vertex.ray(direction, f32::INFINITY)))
+        self.walks[place] = walk;
+        self.rays[place] = vertex.ray(direction, f32::INFINITY);
+        Some(())
     }
 
     /// Light that the ray ran into, weighted against next-event estimation.

@@ -63,7 +63,7 @@ impl Scene {
             }
         }
         builder.finish(&properties)?;
-        assembly.finish(builder, options, SceneParts { transport, film, sensor })
+        assembly.finish(builder.into_warnings(), options, SceneParts { transport, film, sensor })
     }
 }
 
@@ -117,7 +117,7 @@ impl Assembly {
         self.shapes.push(PlacedShape { analytic, bsdf, emitter, smooth, needs_tangents });
     }
 
-    fn finish(self, builder: Builder, options: &SceneOptions, parts: SceneParts) -> Result<Scene> {
+    fn finish(self, warnings: Vec<String>, options: &SceneOptions, parts: SceneParts) -> Result<Scene> {
         let bounds = self.bounds();
         let soup = TriangleSoup { positions: &self.positions, indices: &self.indices };
         let kernel = accel::build(options.kernel, &soup, options.embree_library.as_deref())?;
@@ -137,7 +137,7 @@ impl Assembly {
             transport: parts.transport,
             film: parts.film,
             sensor: parts.sensor,
-            warnings: builder.warnings,
+            warnings,
         })
     }
 
