@@ -76,12 +76,16 @@ validate: setup ## Compare with an independent renderer's references (EVENLIGHT_
 	$(BIN)/python -m benches.validate
 
 .PHONY: bench
-bench: setup $(PEERS) bench-points ## Measure speed, memory and error against Mitsuba 3, SciPy and QMCPy
+bench: setup $(PEERS) bench-points bench-quality ## Measure speed, memory and error against Mitsuba 3, SciPy and QMCPy
 	$(BIN)/python -m benches.run
 
 .PHONY: bench-points
 bench-points: setup $(PEERS) ## Measure the speed of points against SciPy, QMCPy, sobol_burley and memory itself
 	$(BIN)/python -m benches.points
+
+.PHONY: bench-quality
+bench-quality: setup ## Measure discrepancies against SciPy, and the time that exact ones take
+	$(BIN)/python -m benches.quality
 
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc

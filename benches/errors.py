@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from evenlight import Film
+
 __all__ = ["Reference", "coverage", "mean_squares"]
 
 Image = NDArray[np.floating]
@@ -48,8 +50,8 @@ def coverage(stacks: Image, ours: Reference, theirs: Reference) -> dict[str, Any
     """How often 95 % intervals of replicates (K, R, H, W, C) hold the reference.
 
     The intervals are those of `Film.confidence_interval`, and for comparison Student's t ("plain"). The reference's own
-    error is allowed for: the interval is that of the difference of two independent means, with the degrees of freedom
-    of Welch and Satterthwaite.
+    error is allowed for: plain intervals are those of the difference of two independent means, with the degrees of
+    freedom of Welch and Satterthwaite, and the film's are widened in the same proportion.
     """
     result: dict[str, Any] = {}
     for name, reference in (("ours", ours), ("theirs", theirs)):
@@ -60,21 +62,27 @@ def coverage(stacks: Image, ours: Reference, theirs: Reference) -> dict[str, Any
 
 
 def _covered(replicates: Image, reference: Reference) -> tuple[float, float]:
-    """The shares of pixels and channels in the interval without skewness and in the plain one."""
+    """The shares of pixels and channels in the interval that a film offers and in that of Student."""
     count = len(replicates)
-    from_mean = replicates - replicates.mean(axis=0, dtype=np.float64)
-    variance = np.square(from_mean).sum(axis=0) / (count - 1) / count
+    variance = replicates.var(axis=0, ddof=1, dtype=np.float64) / count
     other = np.square(reference.error, dtype=np.float64)
     total = variance + other
     with np.errstate(invalid="ignore", divide="ignore"):
         freedom = np.nan_to_num(total**2 / (variance**2 / (count - 1) + other**2 / (reference.batches - 1)), nan=1.0)
-        # of the mean: its third cumulant over the 3/2 power of the variance of the difference
-        deviation = np.sqrt(np.square(from_mean).mean(axis=0))
-        skewness = (from_mean**3).mean(axis=0) / deviation**3 / np.sqrt(count) * (variance / total) ** 1.5
-        difference = replicates.mean(axis=0, dtype=np.float64) - reference.mean
-        t = difference / np.sqrt(total)
-        unskewed = t + skewness * (t**2 / 3 + 1 / 6) + skewness**2 * t**3 / 27
-    quantile = stats.t.ppf(0.975, freedom)
+        half = stats.t.ppf(0.975, freedom) * np.sqrt(total)
+        # how much wider the film's interval must be to be that of the difference
+        widening = half / (stats.t.ppf(0.975, count - 1) * np.sqrt(variance))
+        low, high = (widening * end for end in _interval(replicates))
+    low, high = (np.where(variance > 0, end, sign * half) for end, sign in ((low, -1), (high, 1)))
+    difference = reference.mean - replicates.mean(axis=0, dtype=np.float64)
     exact = np.abs(difference) <= ROUNDING * np.abs(reference.mean)
-    plain = exact | (np.abs(t) <= quantile)
-    return float((exact | (np.abs(unskewed) <= quantile)).mean()), float(plain.mean())
+    offered = exact | ((low <= difference) & (difference <= high))
+    return float(offered.mean()), float((exact | (np.abs(difference) <= half)).mean())
+
+
+def _interval(replicates: Image) -> tuple[Image, Image]:
+    """The ends of a film's 95 % intervals, as differences from its color."""
+    blank = np.zeros(replicates.shape[1:], np.float32)
+    film = Film(replicates, albedo=blank, normal=blank, depth=blank[..., 0])
+    low, high = film.confidence_interval(0.95)
+    return low - film.color, high - film.color

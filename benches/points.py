@@ -166,6 +166,34 @@ def measure_exact(bench: Bench) -> Record:
     return {"family": "sobol (owen_exact)", "dims": dims, "count": count, "rates": rates}
 
 
+def measure_nets(bench: Bench) -> list[Record]:
+    """Other nets of the same engine, against QMCPy's interlaced Sobol' points and our own Sobol' points."""
+    dims, count = 32, 1 << 20
+    out = bench.out(np.float64, dims, count)
+    sobol = points.Sobol(dims, scramble="linear", seed=1)
+    records = []
+    for order in (2, 3):
+        theirs = qmcpy.DigitalNetB2(dims, seed=1, alpha=order)
+        for scramble in ("linear", "owen"):
+            engine = points.InterlacedSobol(dims, order=order, scramble=scramble, seed=1)
+            contestants: Contestants = {
+                "evenlight": partial(engine.points, 0, count, out),
+                f"QMCPy LMS DS alpha = {order}": partial(theirs, count),
+            }
+            rates = bench.measure(contestants, dims * count)
+            name = f"interlaced_sobol ({scramble}, order {order})"
+            records.append({"family": name, "dims": dims, "count": count, "rates": rates})
+    xing = points.NiederreiterXing(dims, scramble="linear", seed=1)
+    rates = bench.measure(
+        {
+            "evenlight": partial(xing.points, 0, count, out),
+            "evenlight Sobol' linear": partial(sobol.points, 0, count, out),
+        },
+        dims * count,
+    )
+    return [*records, {"family": "niederreiter_xing (linear)", "dims": dims, "count": count, "rates": rates}]
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, keep the record, write the tables."""
     parser = argparse.ArgumentParser(prog="python -m benches.points", description=__doc__)
@@ -181,7 +209,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"sobol, {dims} dimensions, {count} points", file=sys.stderr)
     record["threads"] = [measure_threads(bench, dims, count) for dims, count in SHAPES[:2]]
     print("threads", file=sys.stderr)
-    record["families"] = [measure_exact(bench), *measure_families(bench)]
+    record["families"] = [measure_exact(bench), *measure_nets(bench), *measure_families(bench)]
     raw = HERE.parent / "out" / "bench-points.json"
     raw.parent.mkdir(exist_ok=True)
     raw.write_text(json.dumps(record, indent=1))

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from evenlight import points
@@ -35,8 +36,22 @@ def evenlight_command(tmp_path: Path) -> Run:
     return run
 
 
+def fitting_dims(name: str, d: int) -> int:
+    """As many of d dimensions as a sequence has."""
+    return min(d, next(info.most_dims for info in points.available() if info.name == name))
+
+
+def sobol_matrices(d: int) -> dict[str, Any]:
+    """Sobol' points as a net of one's own: 2^20 points and 40 digits, as in crates/points/tests/examples/mod.rs."""
+    kept = min(max(d, 1), 21_201)
+    columns = points.Sobol(kept).generating_matrices()[:, :20] >> np.uint64(24)
+    return {"matrices": np.resize(columns, (d, 20)).tolist(), "bits": 40}
+
+
 def fitting_count(name: str, d: int, least: int) -> dict[str, Any]:
-    """A number of points that a finite set of d dimensions can have, at least some number; nothing for sequences."""
+    """What a set of d dimensions and at least some number of points must be told; nothing for sequences."""
+    if name == "digital_net":
+        return sobol_matrices(d)
     if not points.SEQUENCES[name].finite:
         return {}
     if name == "stratified":
@@ -49,4 +64,9 @@ def fitting_count(name: str, d: int, least: int) -> dict[str, Any]:
         while side**2 < least or side + 1 < d or any(side % divisor == 0 for divisor in range(2, side)):
             side += 1
         return {"n": side**2}
+    if name == "fibonacci":
+        before, last = 1, 1
+        while last < least:
+            before, last = last, before + last
+        return {"n": last}
     return {"n": least}

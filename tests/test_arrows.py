@@ -27,6 +27,7 @@ PYTHON_ONLY = {"pyo3", "numpy"}
 FAMILIES: dict[str, list[str]] = {
     "points/src/sequences": [info.name for info in points.available()],
     "points/src/scramble": _core.scrambles(),
+    "points/src/warp": _core.warps(),
     "render/src/bsdf": _core.bsdfs(),
     "render/src/emitter": _core.emitters(),
     "render/src/filter": _core.filters(),

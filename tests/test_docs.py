@@ -7,12 +7,19 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import points
+from evenlight import importance, integrands, lab, points, quality
 
 
 def public_names() -> list[tuple[str, object]]:
     """All classes and functions a user is meant to see."""
-    modules = {"evenlight": evenlight, "evenlight.points": points}
+    modules = {
+        "evenlight": evenlight,
+        "evenlight.points": points,
+        "evenlight.integrands": integrands,
+        "evenlight.quality": quality,
+        "evenlight.importance": importance,
+        "evenlight.lab": lab,
+    }
     return [
         (f"{prefix}.{name}", thing)
         for prefix, module in modules.items()
@@ -26,7 +33,10 @@ def public_names() -> list[tuple[str, object]]:
 def test_public_names_are_documented_with_an_example(name: str, thing: object) -> None:
     document = inspect.getdoc(thing) or ""
     assert document, name
-    shown_by_others = inspect.isclass(thing) and (issubclass(thing, tuple) or thing.__subclasses__())
+    shown_by_others = inspect.isclass(thing) and (
+        issubclass(thing, (tuple, integrands.Problem, importance.Density, lab.MixtureProblem, lab.RateCase))
+        or thing.__subclasses__()
+    )
     if not shown_by_others:
         assert ">>>" in document, f"{name} has no example"
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from conftest import fitting_count
+from conftest import fitting_count, fitting_dims
 from evenlight import points
 
 
@@ -16,9 +16,10 @@ from evenlight import points
 def test_the_number_of_workers_changes_nothing(
     info: points.SequenceInfo, dtype: type[np.float64] | type[np.float32]
 ) -> None:
-    engine = points.build(info.name, 5, seed=11, **fitting_count(info.name, 5, 40_008))
-    alone: Any = np.empty((40_001, 5), dtype)
-    together: Any = np.empty((40_001, 5), dtype)
+    d = fitting_dims(info.name, 5)
+    engine = points.build(info.name, d, seed=11, **fitting_count(info.name, d, 40_008))
+    alone: Any = np.empty((40_001, d), dtype)
+    together: Any = np.empty((40_001, d), dtype)
     engine.points(7, 40_008, alone)
     for workers in (2, 3, -1):
         engine.points(7, 40_008, together, workers=workers)

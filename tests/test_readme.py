@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, points
+from evenlight import _core, cli, importance, integrands, points, rules
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -30,7 +30,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_python_example_runs(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (example,) = blocks("python")
+    example, *_ = blocks("python")
     assert len(example.splitlines()) <= 10
     names: dict[str, Any] = {}
     exec(example, names)
@@ -40,6 +40,22 @@ def test_the_python_example_runs(folder: Path, capsys: pytest.CaptureFixture[str
     assert (folder / "demo.exr").is_file()
     assert (folder / "demo.png").is_file()
     assert names["x"].shape == (1024, 8)
+
+
+def test_the_example_of_an_integral_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    _, example, *_ = blocks("python")
+    names: dict[str, Any] = {}
+    exec(example, names)
+    assert f"# {capsys.readouterr().out.strip()}" in example
+    assert names["low"] < 0.4165383858866382 < names["high"]
+
+
+def test_the_example_of_a_mixture_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    *_, example = blocks("python")
+    names: dict[str, Any] = {}
+    exec(example, names)
+    assert f"# {capsys.readouterr().out.strip()}" in example
+    assert abs(names["estimate"].value - 1.3498980316e-3) < 4 * names["estimate"].standard_error
 
 
 def commands() -> list[str]:
@@ -64,6 +80,11 @@ def test_set_up_is_two_commands() -> None:
 FAMILIES = {
     "sequences": [info.name for info in points.available()],
     "scrambles": _core.scrambles(),
+    "warps": _core.warps(),
+    "rules": list(rules.RULES),
+    "integrands": list(integrands.INTEGRANDS),
+    "densities": list(importance.DENSITIES),
+    "heuristics": list(importance.HEURISTICS),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),
@@ -82,7 +103,7 @@ def test_the_table_of_families_is_that_of_the_registries() -> None:
         family: sorted(names) for family, names in FAMILIES.items()
     }
     for _, _, place in rows:
-        assert (ROOT / place / "mod.rs").is_file()
+        assert (ROOT / place / ("mod.rs" if place.startswith("crates") else "__init__.py")).is_file()
 
 
 @pytest.mark.parametrize("document", ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"])

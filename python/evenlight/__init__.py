@@ -8,8 +8,24 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import points
+from evenlight import importance, integrands, lab, points, quality, warp
 from evenlight._core import __version__
+from evenlight.estimate import Estimate
+from evenlight.integrate import integrate
 from evenlight.render import Film, Scene, load_scene, render
 
-__all__ = ["Film", "Scene", "__version__", "load_scene", "points", "render"]
+__all__ = [
+    "Estimate",
+    "Film",
+    "Scene",
+    "__version__",
+    "importance",
+    "integrands",
+    "integrate",
+    "lab",
+    "load_scene",
+    "points",
+    "quality",
+    "render",
+    "warp",
+]

@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
     for entry in sequences::ALL {
         for scramble in entry.accepts {
             print!("{:<28}", format!("{} / {}", entry.name, scramble.name()));
-            for dims in [2, 8, 64, 1024] {
+            for dims in [2, 8, 64, 1024].map(|dims: usize| dims.min(entry.most_dims)) {
                 let options = Options { n: count(entry.name, dims), ..Options::default() };
                 let spec = Spec { options, ..Spec::new(dims, *scramble, Seed::new(1)) };
                 let points = sequences::build(entry.name, &spec)?;
@@ -41,9 +41,8 @@ fn main() -> Result<(), Error> {
 /// The number of points of the finite sets: about as many as there are coordinates.
 fn count(sequence: &str, dims: usize) -> Option<u64> {
     match (sequence, dims) {
-        ("latin_hypercube" | "multi_jittered" | "correlated_multi_jittered", _) | ("stratified", 2) => {
-            Some(1 << 20)
-        }
+        ("latin_hypercube" | "multi_jittered" | "correlated_multi_jittered" | "hammersley", _)
+        | ("stratified", 2) => Some(1 << 20),
         ("stratified", 8) => Some(6_u64.pow(8)),
         ("stratified", _) => Some(1), // there is no grid
         ("orthogonal_array", _) => Some(1031 * 1031),

@@ -6,18 +6,29 @@ use crate::shuffle;
 
 /// The option `n` of a design that cannot do without.
 pub(crate) fn counted_points(sequence: &'static str, spec: &Spec) -> Result<u64, Error> {
+    counted_up_to(sequence, spec, shuffle::MOST)
+}
+
+/// The option `n` of a set that has at most so many points.
+pub(crate) fn counted_up_to(sequence: &'static str, spec: &Spec, most: u64) -> Result<u64, Error> {
     let n = spec.options.n;
-    n.filter(|n| (1..=shuffle::MOST).contains(n)).ok_or_else(|| Error::Option {
+    n.filter(|n| (1..=most).contains(n)).ok_or_else(|| Error::Option {
         sequence,
         option: "n",
         asked: n.map_or("nothing".into(), |n| n.to_string()),
-        allowed: format!("a number of points from 1 to {}", shuffle::MOST),
+        allowed: format!("a number of points from 1 to {most}"),
     })
 }
 
-/// The error that a design has no such number of points, with those near it that it has.
-pub(crate) fn wrong_count(sequence: &'static str, n: u64, allowed: &str, near: [Option<u64>; 2]) -> Error {
-    let near = near.into_iter().flatten().filter(|n| *n <= shuffle::MOST).map(|n| n.to_string());
+/// The error that a design has no such number of points, with those near it that it has, up to `most`.
+pub(crate) fn wrong_count(
+    sequence: &'static str,
+    n: u64,
+    allowed: &str,
+    near: [Option<u64>; 2],
+    most: u64,
+) -> Error {
+    let near = near.into_iter().flatten().filter(|n| *n <= most).map(|n| n.to_string());
     let near = near.collect::<Vec<_>>().join(" or ");
     let allowed = if near.is_empty() { allowed.into() } else { format!("{allowed}, such as {near}") };
     Error::Option { sequence, option: "n", asked: n.to_string(), allowed }

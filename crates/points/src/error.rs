@@ -49,6 +49,8 @@ pub enum Error {
         /// The most it has.
         most: usize,
     },
+    /// Points or a setting that a measure of quality cannot use; the message says what is wrong and what is allowed.
+    Quality(String),
 }
 
 impl fmt::Display for Error {
@@ -82,6 +84,7 @@ impl fmt::Display for Error {
             Self::Dimensions { sequence, asked, most } => {
                 write!(f, "sequence '{sequence}' has 1 to {most} dimensions, not {asked}")
             }
+            Self::Quality(message) => f.write_str(message),
         }
     }
 }

@@ -13,7 +13,11 @@
 //!
 //! * [`sequences`]: the families of points, one file each, and their registry;
 //! * [`scramble`]: random bijections of digits that keep nets nets;
+//! * [`quality`]: how even points are: discrepancies and their structure;
 //! * [`digital_net`]: the engine that all base-2 sequences share;
+//! * [`modular`]: the engine that all lattices share;
+//! * [`construction`] and [`quality`]: generating vectors of lattices, and how good they are;
+//! * [`warp`]: points of triangles, curves, directions and distributions, each with density and inverse;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
 //!
@@ -24,6 +28,8 @@
 
 #[cfg(feature = "std")]
 mod cells;
+#[cfg(feature = "std")]
+pub mod construction;
 pub mod convert;
 #[cfg(feature = "std")]
 mod counts;
@@ -35,7 +41,11 @@ mod dyadic_pairs;
 #[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
+mod generating_matrices;
+#[cfg(feature = "std")]
 mod instruction_sets;
+#[cfg(feature = "std")]
+pub mod modular;
 #[cfg(feature = "std")]
 pub mod multi_jitter;
 pub mod owen_hash;
@@ -44,7 +54,13 @@ mod parallel;
 #[cfg(feature = "std")]
 mod point_set;
 #[cfg(feature = "std")]
-mod radical_inverse;
+mod polynomials;
+#[cfg(feature = "std")]
+mod primes;
+#[cfg(feature = "std")]
+pub mod quality;
+#[cfg(feature = "std")]
+mod radix;
 #[cfg(feature = "std")]
 pub mod scramble;
 mod seed;
@@ -59,6 +75,8 @@ mod streaming;
 mod tower_field;
 #[cfg(feature = "std")]
 mod unit;
+#[cfg(feature = "std")]
+pub mod warp;
 
 #[cfg(feature = "std")]
 pub use error::Error;

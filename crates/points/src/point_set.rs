@@ -29,6 +29,12 @@ pub trait PointSet: Send + Sync {
         None
     }
 
+    /// The generating matrices of a digital net in base 2, before any randomization: for each coordinate the digits of
+    /// points 1, 2, 4, 8, …, which are its columns, first digit in the most significant bit. `None` for other points.
+    fn generating_matrices(&self) -> Option<Vec<Vec<u64>>> {
+        None
+    }
+
     /// The same points randomized anew: what building them with another seed gives, at less cost.
     fn reseeded(&self, seed: Seed) -> Box<dyn PointSet>;
 

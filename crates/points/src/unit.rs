@@ -5,7 +5,7 @@ use std::ops::{BitXor, BitXorAssign};
 use crate::convert::{unit_f32, unit_f64};
 use crate::owen_hash as owen;
 
-/// A floating-point number made of the first digits of a word, for loops in either precision.
+/// A floating-point number made of the first digits of a word, for loops in either precision; or these digits.
 pub(crate) trait Unit: Copy + Default + Send {
     /// A word with the digits that this precision can show, and few more.
     type Digits: Digits;
@@ -30,6 +30,15 @@ impl Unit for f32 {
     #[inline(always)]
     fn from_digits(digits: u32) -> Self {
         unit_f32(digits)
+    }
+}
+
+/// The first digits themselves, for loops that go on with them.
+impl Unit for u32 {
+    type Digits = Self;
+    #[inline(always)]
+    fn from_digits(digits: Self) -> Self {
+        digits
     }
 }
 

@@ -77,8 +77,10 @@ fn long_fills_have_the_bits_of_single_coordinates() {
 
 #[test]
 fn fewer_dimensions_are_the_first_of_more() {
-    // The grid of stratified points depends on the dimension.
-    for (entry, randomization) in pairs().filter(|(entry, _)| entry.name != "stratified") {
+    // The grid of stratified points depends on the dimension, and so do Faure's base, the matrices of Niederreiter and
+    // Xing and the numbers of Roberts' sequence.
+    let dependent = ["stratified", "faure", "niederreiter_xing", "kronecker"];
+    for (entry, randomization) in pairs().filter(|(entry, _)| !dependent.contains(&entry.name)) {
         let [few, many] = [2, 9].map(|dims| build(entry, dims, randomization, Seed::new(4)));
         for index in part(&*few, 0..50) {
             for dim in 0..few.dims() {
@@ -209,6 +211,23 @@ fn wrong_requests_are_refused_with_what_is_allowed() {
         message("sobol", 0, Randomization::None, none()),
         "sequence 'sobol' has 1 to 21201 dimensions, not 0"
     );
+    assert_eq!(
+        message("interlaced_sobol", 2, Randomization::None, Options { order: Some(6), ..none() }),
+        "option 'order' of sequence 'interlaced_sobol' must be 2 to 5, not 6"
+    );
+    let many = message("interlaced_sobol", 7_068, Randomization::None, Options { order: Some(3), ..none() });
+    assert_eq!(many, "sequence 'interlaced_sobol' has 1 to 7067 dimensions, not 7068");
+    let net = |bits, matrices: &[&[u64]]| {
+        let matrices = Some(matrices.iter().map(|columns| columns.to_vec()).collect());
+        message("digital_net", 2, Randomization::None, Options { bits, matrices, ..none() })
+    };
+    assert!(
+        net(None, &[&[1], &[1]]).ends_with("must be the number of digits of a column, 1 to 64, not nothing")
+    );
+    assert!(net(Some(2), &[&[1]]).ends_with("must be one list of columns for each of 2 dimensions, not 1"));
+    assert!(net(Some(2), &[&[], &[]]).ends_with("must be lists of 1 to 64 columns, not 0"));
+    assert!(net(Some(2), &[&[1, 2], &[1]]).ends_with("must be lists of the same length, here 2, not 1"));
+    assert!(net(Some(2), &[&[1, 2], &[3, 4]]).ends_with("must be numbers below 2^2, as 'bits' says, not 4"));
     assert!(message("sobol", 21_202, Randomization::None, none()).ends_with("not 21202"));
     let error = sequences::build("halton", &Spec::new(6_543, Randomization::None, Seed::new(0))).err();
     assert_eq!(error, Some(Error::Dimensions { sequence: "halton", asked: 6_543, most: 6_542 }));

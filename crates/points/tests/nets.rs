@@ -1,12 +1,19 @@
-//! Known numbers of the constructions: quality parameters, elementary intervals, star discrepancies.
+//! Known numbers of the constructions: elementary intervals, star discrepancies.
 
 use evenlight_points::scramble::Randomization;
-use evenlight_points::sequences::{self, Spec};
+use evenlight_points::sequences::{self, Options, Spec};
 use evenlight_points::{PointSet, Seed};
 
 fn build(name: &str, dims: usize, scramble: &str, seed: u64) -> Box<dyn PointSet> {
     let randomization = Randomization::named(scramble).expect("known");
     sequences::build(name, &Spec::new(dims, randomization, Seed::new(seed))).expect("valid")
+}
+
+/// With the number of points of a finite set, and the base of a sequence that has a choice.
+fn build_with(name: &str, dims: usize, n: Option<u64>, base: Option<u32>) -> Box<dyn PointSet> {
+    let options = Options { n, base, ..Options::default() };
+    let spec = Spec { options, ..Spec::new(dims, Randomization::None, Seed::new(0)) };
+    sequences::build(name, &spec).expect("valid")
 }
 
 /// All ways to write `sum` as an ordered sum of `parts` numbers from 0 on.
@@ -21,54 +28,6 @@ fn compositions(sum: u32, parts: usize) -> Vec<Vec<u32>> {
         })
     });
     first.collect()
-}
-
-/// True if bit vectors are independent over {0, 1}: Gaussian elimination.
-fn independent(rows: impl Iterator<Item = u64>) -> bool {
-    let mut basis: Vec<u64> = Vec::new();
-    for mut row in rows {
-        for &pivot in &basis {
-            row = row.min(row ^ pivot);
-        }
-        if row == 0 {
-            return false;
-        }
-        basis.push(row);
-    }
-    true
-}
-
-/// The quality parameter of the first 2^m points: m − k for the largest k such that in every
-/// composition of k, the first so many rows of each matrix are independent.
-fn quality(points: &dyn PointSet, m: u32) -> u32 {
-    // Row r of matrix j as a bit mask over the columns, read off the points 1, 2, 4, …
-    let row = |j: usize, r: u32| -> u64 {
-        let digit = |k: u32| (points.coord(1 << k, j) * 2f64.powi(r as i32 + 1)) as u64 & 1;
-        (0..m).map(|k| digit(k) << k).sum()
-    };
-    let even = |k: u32| {
-        compositions(k, points.dims()).iter().all(|depths| {
-            independent(depths.iter().enumerate().flat_map(|(j, &depth)| (0..depth).map(move |r| row(j, r))))
-        })
-    };
-    m - (0..=m).take_while(|&k| even(k)).last().expect("k = 0 always holds")
-}
-
-/// Joe–Kuo points, m = 1, 2, …: checked against an independent computation for this project.
-#[test]
-fn sobol_has_the_known_quality_parameters() {
-    let known: [(usize, &[u32]); 5] = [
-        (2, &[0; 12]),
-        (3, &[0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]),
-        (4, &[0, 1, 2, 2, 2, 2, 2, 3, 3, 2, 2, 3]),
-        (5, &[0, 1, 2, 2, 2, 3, 3, 3, 3, 3, 4, 4]),
-        (7, &[0, 1, 2, 3, 2, 3, 3, 4]),
-    ];
-    for (dims, t) in known {
-        let points = build("sobol", dims, "none", 0);
-        let found: Vec<_> = (1..=t.len() as u32).map(|m| quality(&*points, m)).collect();
-        assert_eq!(found, t, "s = {dims}");
-    }
 }
 
 /// Counts points in every elementary interval of volume 2^(t − m): 2^t each, scrambled or not, and
@@ -99,40 +58,6 @@ fn elementary_intervals_hold_the_same_number_of_sobol_points() {
             }
         }
     }
-}
-
-/// In base p, each of the p^k cells of a coordinate holds one of any p^k rows from a multiple of p^k on.
-#[test]
-fn halton_coordinates_are_stratified_in_their_bases() {
-    for scramble in ["none", "owen"] {
-        let points = build("halton", 7, scramble, 5);
-        for (dim, base) in [2_u64, 3, 5, 7, 11, 13, 17].into_iter().enumerate() {
-            for k in 1..=3 {
-                let cells = base.pow(k);
-                for block in [0, 1, 1000] {
-                    let mut seen = vec![false; cells as usize];
-                    for index in block * cells..(block + 1) * cells {
-                        // Unscrambled points lie on cell borders, cut off below them.
-                        seen[(points.coord(index, dim) * cells as f64 + 1e-9) as usize] = true;
-                    }
-                    assert!(seen.iter().all(|&seen| seen), "base {base}, level {k}, {scramble}");
-                }
-            }
-        }
-    }
-}
-
-/// Radical inverses written down by hand.
-#[test]
-fn halton_starts_as_on_paper() {
-    let points = build("halton", 4, "none", 0);
-    let close = |index, dim, x: f64| assert!((points.coord(index, dim) - x).abs() < 1e-15, "{index}, {dim}");
-    close(6, 0, 3.0 / 8.0); // 110 -> .011
-    close(5, 1, 7.0 / 9.0); // 12 -> .21
-    close(7, 2, 11.0 / 25.0); // 12 -> .21
-    close(10, 3, 22.0 / 49.0); // 13 -> .31
-    close((1 << 40) + 1, 0, 0.5 + 2f64.powi(-41));
-    close(3_u64.pow(30) + 1, 1, 1.0 / 3.0 + 3f64.powi(-31));
 }
 
 /// The exact star discrepancy: all corners of the grid of coordinates, O(n^d).
@@ -202,12 +127,43 @@ fn star_discrepancies_are_the_known_ones() {
     }
 }
 
+/// Values of the same computation for the first 125 points in base 5.
+#[test]
+fn star_discrepancies_of_faure_points_are_the_known_ones() {
+    for (dims, value) in [(2, 0.033792), (3, 0.0521303)] {
+        let found = star_discrepancy(&*build_with("faure", dims, None, Some(5)), 125);
+        assert!((found - value).abs() < 1e-6, "d = {dims}: {found}, not {value}");
+    }
+}
+
+/// J. H. Halton and S. K. Zaremba (1969): n D* = m/3 + 13/9 − (−1)^m 4/(9·2^m) for n = 2^m, and the mean square discrepancy.
+#[test]
+fn hammersley_points_have_the_known_discrepancy() {
+    for m in 2..=9 {
+        let (n, sign) = (2_u64.pow(m), if m % 2 == 0 { 1.0 } else { -1.0 });
+        let (points, count, m) = (build_with("hammersley", 2, Some(n), None), n as f64, f64::from(m));
+        let known = m / 3.0 + 13.0 / 9.0 - sign * 4.0 / (9.0 * count);
+        let found = star_discrepancy(&*points, n) * count;
+        assert!((found - known).abs() < 1e-12, "{n} points: {found}, not {known}");
+
+        let rows: Vec<_> = (0..n).map(|i| [points.coord(i, 0), points.coord(i, 1)]).collect();
+        let single = |row: &[f64; 2]| row.iter().map(|x| 1.0 - x * x).product::<f64>();
+        let pair =
+            |a: &[f64; 2], b: &[f64; 2]| a.iter().zip(b).map(|(x, y)| 1.0 - x.max(*y)).product::<f64>();
+        let pairs: f64 = rows.iter().map(|a| rows.iter().map(|b| pair(a, b)).sum::<f64>()).sum();
+        let found = count * count / 9.0 - count / 2.0 * rows.iter().map(single).sum::<f64>() + pairs;
+        let known = m * m / 64.0 + 29.0 * m / 192.0 + 3.0 / 8.0 - m / (16.0 * count) + 1.0 / (4.0 * count)
+            - 1.0 / (72.0 * count * count);
+        assert!((found - known).abs() < 1e-9, "{n} points: {found}, not {known}");
+    }
+}
+
 /// Béjian and Faure: n D* of the first n points of the van der Corput sequence from 0 on.
 #[test]
 fn van_der_corput_has_the_known_discrepancy() {
     let known =
         [(1, 1.0), (2, 1.0), (3, 1.5), (5, 1.75), (13, 2.125), (21, 2.4375), (43, 2.78125), (85, 3.109375)];
-    for name in ["sobol", "halton"] {
+    for name in ["sobol", "halton", "van_der_corput", "faure", "niederreiter"] {
         let points = build(name, 1, "none", 0);
         for (n, value) in known {
             let found = star_discrepancy(&*points, n) * n as f64;

@@ -1,6 +1,6 @@
 //! The door to the registries: the names in each, in the order of error messages.
 
-use evenlight_points::scramble;
+use evenlight_points::{scramble, warp};
 use evenlight_render::accel::KernelChoice;
 use evenlight_render::integrator::{self, Mis};
 use evenlight_render::{bsdf, emitter, filter, sampler, sensor, shape, texture};
@@ -24,6 +24,7 @@ macro_rules! families {
 
 families! {
     scrambles: scramble::ALL.iter().map(|entry| entry.name),
+    warps: warp::ALL.iter().map(|entry| entry.name),
     integrators: integrator::ALL.iter().map(|entry| entry.name),
     samplers: sampler::ALL.iter().map(|entry| entry.name),
     filters: filter::ALL.iter().map(|entry| entry.name),

@@ -2,11 +2,15 @@
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 gives away what it converts")]
 
+mod curve;
 mod errors;
 mod families;
+mod lattices;
 mod output;
 mod points;
+mod quality;
 mod render;
+mod warp;
 
 use pyo3::prelude::*;
 
@@ -14,8 +18,12 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    curve::register(module)?;
     families::register(module)?;
+    lattices::register(module)?;
     output::register(module)?;
     points::register(module)?;
-    render::register(module)
+    quality::register(module)?;
+    render::register(module)?;
+    warp::register(module)
 }

@@ -26,7 +26,8 @@ struct PointSet {
 #[pymethods]
 impl PointSet {
     #[new]
-    #[pyo3(signature = (name, dims, scramble, seed, *, n=None, base=None, order=None, strength=None, generator=None))]
+    #[pyo3(signature = (name, dims, scramble, seed, *, n=None, base=None, order=None, strength=None, generator=None,
+        matrices=None, bits=None))]
     #[expect(clippy::too_many_arguments, reason = "plain values, by keyword")]
     fn new(
         name: &str,
@@ -38,8 +39,10 @@ impl PointSet {
         order: Option<u32>,
         strength: Option<u32>,
         generator: Option<Vec<u64>>,
+        matrices: Option<Vec<Vec<u64>>>,
+        bits: Option<u32>,
     ) -> PyResult<Self> {
-        let options = Options { n, base, order, strength, generator };
+        let options = Options { n, base, order, strength, generator, matrices, bits };
         let build = || {
             // an unknown sequence is said before an unknown randomization
             sequences::named(name)?;
@@ -66,6 +69,11 @@ impl PointSet {
     #[getter]
     fn base(&self) -> Option<u64> {
         self.inner.base()
+    }
+
+    /// The columns of the generating matrices; None for points that are no digital net in base 2.
+    fn generating_matrices(&self) -> Option<Vec<Vec<u64>>> {
+        self.inner.generating_matrices()
     }
 
     /// One coordinate of one point.

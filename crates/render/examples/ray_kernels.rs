@@ -8,8 +8,10 @@
 //! processor time, so that a busy machine disturbs little.
 #![allow(clippy::print_stdout)] // a program that prints a table
 
+#[path = "../tests/random/mod.rs"]
+mod random;
+
 use std::error::Error;
-use std::f32::consts::TAU;
 use std::fs;
 use std::path::Path;
 use std::time::Instant;
@@ -17,6 +19,7 @@ use std::time::Instant;
 use evenlight_render::accel::{Embree, RayKernel, TriangleSoup, Wide};
 use evenlight_render::geometry::{Frame, Ray, Vec3};
 use evenlight_render::scene::world::WAVE;
+use random::Random;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
@@ -154,29 +157,6 @@ fn workloads(soup: &TriangleSoup, kernel: &dyn RayKernel) -> Vec<Workload> {
         Workload { name: "random", rays: scattered, occlusion: false },
         Workload { name: "occlusion", rays: occlusion, occlusion: true },
     ]
-}
-
-/// Enough randomness for a benchmark (`SplitMix64`: Steele, Lea and Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e3779b97f4a7c15);
-        let x = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58476d1ce4e5b9);
-        let x = (x ^ x >> 27).wrapping_mul(0x94d049bb133111eb);
-        ((x ^ x >> 31) >> 40) as f32 / (1 << 24) as f32
-    }
-
-    fn point(&mut self) -> Vec3 {
-        Vec3::new(self.uniform(), self.uniform(), self.uniform())
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        let z = 2.0 * self.uniform() - 1.0;
-        let (sin, cos) = (TAU * self.uniform()).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        Vec3::new(r * cos, r * sin, z)
-    }
 }
 
 /// Processor time of this thread where the system tells (Linux), else wall time.

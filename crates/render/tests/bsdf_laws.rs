@@ -1,6 +1,8 @@
 //! Laws that every BSDF obeys, whatever its parameters.
 
+mod judge;
 mod plugins;
+mod random;
 
 use std::collections::BTreeSet;
 use std::f32::consts::PI;
@@ -8,7 +10,9 @@ use std::sync::Arc;
 
 use evenlight_render::bsdf::{self, Bsdf, BsdfSample};
 use evenlight_render::geometry::{Surface, Vec2, Vec3};
+use judge::{chi_square, level};
 use plugins::surface;
+use random::{Random, from_angles};
 
 /// One BSDF with parameters.
 struct Case {
@@ -95,32 +99,6 @@ fn cases() -> Vec<Case> {
     CASES.iter().map(build).collect()
 }
 
-/// `SplitMix64` (Steele, Lea & Flood 2014): plenty for tests.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e3779b97f4a7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58476d1ce4e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d049bb133111eb);
-        ((x ^ (x >> 31)) >> 40) as f32 / (1 << 24) as f32
-    }
-
-    fn pair(&mut self) -> [f32; 2] {
-        [self.next(), self.next()]
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        let (z, phi) = (2.0 * self.next() - 1.0, 2.0 * PI * self.next());
-        from_angles(z, phi)
-    }
-}
-
-fn from_angles(z: f32, phi: f32) -> Vec3 {
-    let radius = (1.0 - z * z).max(0.0).sqrt();
-    Vec3::new(radius * phi.cos(), radius * phi.sin(), z)
-}
-
 fn here() -> Surface {
     surface(Vec2::new(0.3, 0.6))
 }
@@ -182,23 +160,11 @@ fn observed_counts(case: &Case, wo: Vec3, seed: u64) -> Vec<f64> {
     counts
 }
 
-/// Probability of a chi-square as large as this: the normal approximation of Wilson & Hilferty 1931.
-fn tail(chi_square: f64, freedom: f64) -> f64 {
-    let spread = 2.0 / (9.0 * freedom);
-    let z = ((chi_square / freedom).cbrt() - (1.0 - spread)) / spread.sqrt();
-    // Complementary error function (Abramowitz & Stegun 7.1.26).
-    let x = z.abs() / std::f64::consts::SQRT_2;
-    let t = 1.0 / (1.0 + 0.3275911 * x);
-    let coefficients = [1.061405429, -1.453152027, 1.421413741, -0.284496736, 0.254829592];
-    let half = 0.5 * coefficients.iter().fold(0.0, |sum, c| sum * t + c) * t * (-x * x).exp();
-    if z > 0.0 { half } else { 1.0 - half }
-}
-
 #[test]
 fn samples_follow_their_density() {
     let cases = cases();
     let tests = cases.len() * viewers().len();
-    let level = 1.0 - (1.0 - FALSE_ALARM).powf(1.0 / tests as f64); // Šidák 1967
+    let level = level(FALSE_ALARM, tests);
     for (number, case) in cases.iter().enumerate() {
         for (viewer, wo) in viewers().into_iter().enumerate() {
             let mut expected = expected_counts(case, wo);
@@ -208,24 +174,8 @@ fn samples_follow_their_density() {
             expected.push((SAMPLES as f64 - total).max(0.0));
             observed.push(SAMPLES as f64 - observed.iter().sum::<f64>());
 
-            // Bins that expect few samples are taken together.
-            let (mut chi_square, mut bins, mut rest) = (0.0, 0.0, (0.0, 0.0));
-            for (e, o) in expected.into_iter().zip(observed) {
-                if e < 10.0 {
-                    rest = (rest.0 + e, rest.1 + o);
-                } else {
-                    chi_square += (o - e) * (o - e) / e;
-                    bins += 1.0;
-                }
-            }
-            if rest.0 > 10.0 {
-                chi_square += (rest.1 - rest.0) * (rest.1 - rest.0) / rest.0;
-                bins += 1.0;
-            } else {
-                assert!(rest.1 <= rest.0 + 40.0, "{}: {} samples where none belong", case.xml, rest.1);
-            }
-            let p = if bins > 1.0 { tail(chi_square, bins - 1.0) } else { 1.0 };
-            assert!(p > level, "{} from {wo}: chi-square {chi_square} in {bins} bins, p = {p}", case.xml);
+            let p = chi_square(&expected, &observed);
+            assert!(p > level, "{} from {wo}: p = {p}", case.xml);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Laws that every emitter obeys: samples follow their density, and a ray that runs into a light finds what was sampled.
 
 mod judge;
+mod random;
 mod stage;
 
 use std::collections::BTreeSet;
@@ -9,7 +10,8 @@ use std::f32::consts::PI;
 use evenlight_render::emitter::{self, Emitter, EmitterHit, LightSample};
 use evenlight_render::geometry::{Frame, Mat3A, Ray, Vec2, Vec3};
 use evenlight_render::scene::Scene;
-use judge::{Random, chi_square, from_angles, level};
+use judge::{chi_square, level};
+use random::{Random, from_angles};
 
 /// A light seen from a point.
 struct Case {

@@ -1,13 +1,15 @@
 //! Laws that every pixel filter obeys: its samples are drawn from |f|, and their signed weights make them averages over f.
 
 mod judge;
+mod random;
 mod stage;
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use evenlight_render::filter::{self, Filter};
-use judge::{Random, chi_square, level};
+use judge::{chi_square, level};
+use random::Random;
 
 /// A filter, its function and its radius.
 struct Case {

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use evenlight_points::{scramble, sequences};
+use evenlight_points::{scramble, sequences, warp};
 use evenlight_render::{bsdf, emitter, filter, integrator, sampler, sensor, shape, texture};
 
 /// A family: its folder below `crates`, the names in its registry, and the files that several of its members share.
@@ -22,13 +22,14 @@ fn families() -> Vec<Family> {
     vec![
         ("points/src/sequences", names!(sequences::ALL), &[]),
         ("points/src/scramble", names!(scramble::ALL), &["matrix"]),
+        ("points/src/warp", names!(warp::ALL), &["curve", "options", "real", "rows", "triangle"]),
         (
             "render/src/bsdf",
             names!(bsdf::ALL),
-            &["coat", "fresnel", "gauss", "interface", "metal", "microfacet", "perturbed", "warp"],
+            &["coat", "fresnel", "gauss", "glass", "interface", "metal", "microfacet", "perturbed", "warp"],
         ),
         // `area` belongs to a shape and is built with it
-        ("render/src/emitter", names!(emitter::ALL), &["area", "selection", "sky"]),
+        ("render/src/emitter", names!(emitter::ALL), &["area", "placement", "selection", "sky"]),
         ("render/src/filter", names!(filter::ALL), &[]),
         ("render/src/integrator", names!(integrator::ALL), &[]),
         ("render/src/sampler", names!(sampler::ALL), &[]),

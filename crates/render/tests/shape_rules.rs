@@ -1,6 +1,6 @@
 //! What shapes do with unusual meshes, and with plugins that are nested, referred to or left out.
 
-mod judge;
+mod random;
 mod stage;
 
 use std::io::Write;
@@ -8,7 +8,7 @@ use std::io::Write;
 use evenlight_render::geometry::{Ray, Surface, Vec3};
 use evenlight_render::render::Settings;
 use evenlight_render::scene::{Scene, SceneOptions};
-use judge::Random;
+use random::Random;
 use stage::fixture::Folder;
 use stage::{picture, scene, try_scene};
 
@@ -149,7 +149,7 @@ fn rays_meet_analytic_shapes_where_their_surface_is() {
         ));
         let (mut random, mut hits) = (Random(4), 0);
         for _ in 0..4000 {
-            let mut point = || Vec3::from_array([(); 3].map(|()| 4.0 * random.next() - 2.0));
+            let mut point = || random.point() * 4.0 - 2.0;
             let (origin, target) = (point(), point());
             let ray = Ray { origin, direction: (target - origin).normalize(), t_max: f32::INFINITY };
             let Some(hit) = scene.world.intersect(&ray) else { continue };
@@ -167,4 +167,43 @@ fn rays_meet_analytic_shapes_where_their_surface_is() {
         }
         assert!(hits > 100, "{plugin}: only {hits}");
     }
+}
+
+/// The first ray parameter at which a line meets a sphere in front of its origin, by the textbook formula in double precision.
+fn first_root(ray: &Ray, center: Vec3, radius: f32) -> Option<f64> {
+    let direction = ray.direction.as_dvec3();
+    let to_center = (center - ray.origin).as_dvec3();
+    let along = to_center.dot(direction);
+    let half = (f64::from(radius).powi(2) - (to_center - along * direction).length_squared()).sqrt();
+    [along - half, along + half].into_iter().find(|t| *t > 0.0)
+}
+
+#[test]
+fn the_first_of_many_spheres_is_met() {
+    let mut random = Random(5);
+    let spheres: Vec<(Vec3, f32)> =
+        (0..300).map(|_| (random.point() * 4.0 - 2.0, 0.02 + 0.2 * random.next())).collect();
+    let shape = |(center, radius): &(Vec3, f32)| {
+        let [x, y, z] = center.to_array();
+        format!(
+            "<shape type='sphere'><point name='center' x='{x}' y='{y}' z='{z}'/><float name='radius' value='{radius}'/></shape>"
+        )
+    };
+    let scene = scene(&spheres.iter().map(shape).collect::<String>());
+    let mut hits = 0;
+    for _ in 0..4000 {
+        let origin = random.point() * 6.0 - 3.0;
+        let ray = Ray { origin, direction: random.direction(), t_max: f32::INFINITY };
+        let roots = spheres.iter().map(|(center, radius)| first_root(&ray, *center, *radius));
+        let first = roots.enumerate().filter_map(|(number, t)| Some((number, t?)));
+        let first = first.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        let hit = scene.world.intersect(&ray);
+        assert_eq!(hit.map(|hit| hit.shape as usize), first.map(|(number, _)| number), "{ray:?}");
+        let Some((_, t)) = first else { continue };
+        assert!(hit.is_some_and(|hit| (f64::from(hit.t) - t).abs() < 1e-4), "{ray:?}");
+        assert!(scene.world.occluded(&Ray { t_max: t as f32 * 1.01, ..ray }));
+        assert!(!scene.world.occluded(&Ray { t_max: t as f32 * 0.99, ..ray }));
+        hits += 1;
+    }
+    assert!(hits > 500, "only {hits}");
 }

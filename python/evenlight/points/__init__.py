@@ -8,42 +8,73 @@ from typing import Any, NamedTuple, SupportsIndex
 
 from evenlight import _core
 
+from .construction import construct_korobov, construct_lattice, construct_polynomial_lattice
 from .correlated_multi_jittered import CorrelatedMultiJittered
+from .digital_net import DigitalNet
 from .dyadic import Dyadic
 from .engine import Engine, SeedLike
+from .faure import Faure
+from .fibonacci import Fibonacci
 from .halton import Halton
+from .hammersley import Hammersley
 from .independent import Independent
+from .interlaced_sobol import InterlacedSobol
+from .korobov import Korobov
+from .kronecker import Kronecker
 from .latin_hypercube import LatinHypercube
+from .lattice import Lattice
 from .mersenne_twister import MersenneTwister
 from .multi_jittered import MultiJittered
+from .net_tables import read_direction_numbers, read_matrices
+from .niederreiter import Niederreiter
+from .niederreiter_xing import NiederreiterXing
 from .orthogonal_array import OrthogonalArray
 from .pcg import Pcg
 from .philox import Philox
+from .polynomial_lattice import PolynomialLattice
 from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
 from .stratified import Stratified
 from .sz import Sz
+from .van_der_corput import VanDerCorput
 
 __all__ = [
     "SEQUENCES",
     "CorrelatedMultiJittered",
+    "DigitalNet",
     "Dyadic",
     "Engine",
+    "Faure",
+    "Fibonacci",
     "Halton",
+    "Hammersley",
     "Independent",
+    "InterlacedSobol",
+    "Korobov",
+    "Kronecker",
     "LatinHypercube",
+    "Lattice",
     "MersenneTwister",
     "MultiJittered",
+    "Niederreiter",
+    "NiederreiterXing",
     "OrthogonalArray",
     "Pcg",
     "Philox",
+    "PolynomialLattice",
     "ProgressiveMultiJittered",
     "SequenceInfo",
     "Sobol",
     "Stratified",
     "Sz",
+    "VanDerCorput",
     "available",
     "build",
+    "construct_korobov",
+    "construct_lattice",
+    "construct_polynomial_lattice",
+    "read_direction_numbers",
+    "read_matrices",
 ]
 
 SEQUENCES: dict[str, type[Engine]] = {
@@ -52,9 +83,21 @@ SEQUENCES: dict[str, type[Engine]] = {
         Sobol,
         Halton,
         Independent,
+        NiederreiterXing,
+        InterlacedSobol,
+        DigitalNet,
+        VanDerCorput,
+        Hammersley,
+        Faure,
+        Niederreiter,
         Dyadic,
         Sz,
         ProgressiveMultiJittered,
+        Lattice,
+        PolynomialLattice,
+        Kronecker,
+        Korobov,
+        Fibonacci,
         LatinHypercube,
         OrthogonalArray,
         Stratified,

@@ -173,6 +173,32 @@ class Engine(qmc.QMCEngine):
             raise ValueError(f"{self!r} has no randomness to replicate; choose a scramble other than 'none'")
         return number
 
+    def generating_matrices(self) -> npt.NDArray[np.uint64]:
+        """Return the generating matrices of a digital net in base 2, before any scramble.
+
+        Returns
+        -------
+        ndarray of uint64, shape (d, m)
+            The columns of each matrix: the digits of points 1, 2, 4, ..., first digit in the most significant bit. m is
+            64, or less where there are 2^m points. What other software calls direction numbers, to the same bits if
+            it takes 64; ``matrices >> np.uint64(64 - bits)`` for fewer.
+
+        Raises
+        ------
+        ValueError
+            If the points are no digital net in base 2.
+
+        Examples
+        --------
+        >>> from evenlight.points import Sobol
+        >>> [f"{column:.3f}" for column in Sobol(2).generating_matrices()[1, :4] / 2**64]
+        ['0.500', '0.750', '0.625', '0.938']
+        """
+        matrices = None if self._core is None else self._core.generating_matrices()
+        if matrices is None:
+            raise ValueError(f"{self!r} has no generating matrices in base 2")
+        return np.array(matrices, dtype=np.uint64)
+
     @property
     def is_random(self) -> bool:
         """Whether the seed matters."""
@@ -316,10 +342,12 @@ def _threads(workers: SupportsIndex) -> int:
     return number if number > 0 else os.cpu_count() or 1
 
 
-def _plain(name: str, value: Any) -> int | list[int]:
-    """Turn an option into the plain value it stands for: an integer, or a list of integers."""
+def _plain(name: str, value: Any) -> Any:
+    """Turn an option into the plain value it stands for: an integer, or lists of integers."""
+    if isinstance(value, np.ndarray) and value.dtype.kind == "u":
+        return value.tolist()
     if np.iterable(value) and not isinstance(value, str):
-        return [_integer(name, number, 0) for number in value]
+        return [_plain(name, part) for part in value]
     return _integer(name, value, 0)
 
 

@@ -2,6 +2,7 @@
 //!
 //! Two loops for the same numbers: one into the caches and one past them, each with and without the Owen hash.
 
+use super::interlaced::spread;
 use crate::convert::{Digits, Unit};
 use crate::instruction_sets::for_this_machine;
 use crate::scramble::owen_exact::exact_scrambles;
@@ -49,6 +50,28 @@ for_this_machine! {
 for_this_machine! {
     /// Points shifted modulo 1.
     added = added_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T])
+}
+
+for_this_machine! {
+    /// Numbers from the digits of each `order` consecutive words in turn.
+    interlaced = interlaced_body<T: Unit>(words: &[u32], order: usize, out: &mut [T])
+}
+
+#[inline(always)]
+fn interlaced_body<T: Unit>(words: &[u32], order: usize, out: &mut [T]) {
+    match order {
+        2 => interlaced_by::<T, 2>(words, out),
+        3 => interlaced_by::<T, 3>(words, out),
+        4 => interlaced_by::<T, 4>(words, out),
+        _ => interlaced_by::<T, 5>(words, out),
+    }
+}
+
+#[inline(always)]
+fn interlaced_by<T: Unit, const ORDER: usize>(words: &[u32], out: &mut [T]) {
+    for (x, words) in out.iter_mut().zip(words.as_chunks::<ORDER>().0) {
+        *x = T::from_word(spread::<ORDER>(words));
+    }
 }
 
 #[inline(always)]

@@ -6,6 +6,7 @@
 //! aligned block of rows is the tile plus one offset for each coordinate, so that whole vectors of
 //! coordinates can be scrambled and converted at a time, whatever the dimension.
 
+pub mod interlaced;
 mod kernels;
 mod tables;
 
@@ -27,6 +28,8 @@ pub const BITS: usize = 64;
 #[derive(Debug)]
 pub struct DigitalNet {
     dims: usize,
+    /// The columns of a matrix: the digits of an index that matter.
+    depth: usize,
     randomization: Randomization,
     /// Column k of the matrix of coordinate j at `k * dims + j`, before any randomization.
     plain: Arc<[u64]>,
@@ -44,19 +47,43 @@ impl DigitalNet {
     /// # Panics
     /// If there are no matrices.
     pub fn new(matrices: &[[u64; BITS]], randomization: Randomization, seed: Seed) -> Self {
-        assert!(!matrices.is_empty(), "a net has at least one coordinate");
-        let columns = (0..BITS).flat_map(|k| matrices.iter().map(move |matrix| matrix[k])).collect();
-        Self::randomized(columns, matrices.len(), randomization, seed)
+        Self::finite(matrices, randomization, seed)
     }
 
-    fn randomized(plain: Arc<[u64]>, dims: usize, randomization: Randomization, seed: Seed) -> Self {
+    /// A net of 2^m points from the m columns of each of its generating matrices.
+    ///
+    /// ```
+    /// use evenlight_points::{PointSet, Seed, digital_net::DigitalNet, scramble::Randomization};
+    /// let hammersley = [vec![1 << 63, 1 << 62, 1 << 61], vec![1 << 61, 1 << 62, 1 << 63]];
+    /// let net = DigitalNet::finite(&hammersley, Randomization::None, Seed::new(0));
+    /// assert_eq!((net.len(), net.coord(6, 0), net.coord(6, 1)), (Some(8), 0.375, 0.75));
+    /// ```
+    ///
+    /// # Panics
+    /// If there are no matrices, or they have not all the same number of columns from 1 to 64.
+    pub fn finite<M: AsRef<[u64]>>(matrices: &[M], randomization: Randomization, seed: Seed) -> Self {
+        let depth = matrices.first().expect("a net has at least one coordinate").as_ref().len();
+        assert!((1..=BITS).contains(&depth), "a matrix has 1 to 64 columns, not {depth}");
+        assert!(matrices.iter().all(|matrix| matrix.as_ref().len() == depth), "all have {depth} columns");
+        let entry = |k, matrix: &M| matrix.as_ref().get(k).copied().unwrap_or(0);
+        let columns = (0..BITS).flat_map(|k| matrices.iter().map(move |matrix| entry(k, matrix))).collect();
+        Self::randomized(columns, depth, randomization, seed, matrices.len())
+    }
+
+    fn randomized(
+        plain: Arc<[u64]>,
+        depth: usize,
+        randomization: Randomization,
+        seed: Seed,
+        dims: usize,
+    ) -> Self {
         let keys: Vec<_> = (0..dims as u64).map(|dim| seed.dimension(dim)).collect();
         let (columns, origin) = if randomization.entry().affine {
             built_in(&plain, &keys, randomization.entry().apply)
         } else {
             (plain.clone(), vec![0; dims])
         };
-        Self { dims, randomization, plain, columns, origin, keys }
+        Self { dims, depth, randomization, plain, columns, origin, keys }
     }
 
     /// The digits of a coordinate before randomization.
@@ -71,6 +98,11 @@ impl DigitalNet {
             index &= index - 1;
         }
         word
+    }
+
+    /// The digits of a coordinate, randomized.
+    fn randomized_word(&self, index: u64, dim: usize) -> u64 {
+        (self.randomization.entry().apply)(self.word(index, dim), self.keys[dim])
     }
 
     /// The words of a row, with no other than an affine randomization.
@@ -118,6 +150,31 @@ impl DigitalNet {
         }
     }
 
+    /// Gives the first 32 digits of all coordinates of some rows after the other to `take`.
+    fn for_each_leading_words(&self, rows: Range<u64>, mut take: impl FnMut(&[u32])) {
+        if rows.is_empty() {
+            return;
+        }
+        let (mut words_left, mut made) = ((rows.end - rows.start) as usize * self.dims, vec![]);
+        let mut places = |tile: usize, made: &mut Vec<u32>| {
+            made.resize((tile - LANES).min(words_left), 0);
+            words_left -= made.len();
+        };
+        if self.randomization == Randomization::OwenExact {
+            Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
+                places(tile.len(), &mut made);
+                kernels::owen_exact(tile, period, &mut made);
+                take(&made);
+            });
+        } else {
+            Tables::<u32>::new(self, &rows).for_each_block(rows, |tile, period| {
+                places(tile.len(), &mut made);
+                kernels::owen(tile, period, &mut made);
+                take(&made);
+            });
+        }
+    }
+
     /// The randomizations that take all digits of a word, whatever the precision of the result.
     fn fill_by_word<T: Unit>(&self, rows: Range<u64>, out: &mut [T], kernel: WordKernel<T>) {
         let mut rest = out;
@@ -149,7 +206,11 @@ impl PointSet for DigitalNet {
     }
 
     fn coord(&self, index: u64, dim: usize) -> f64 {
-        unit_f64((self.randomization.entry().apply)(self.word(index, dim), self.keys[dim]))
+        unit_f64(self.randomized_word(index, dim))
+    }
+
+    fn len(&self) -> Option<u64> {
+        1_u64.checked_shl(self.depth as u32)
     }
 
     fn base(&self) -> Option<u64> {
@@ -157,7 +218,12 @@ impl PointSet for DigitalNet {
     }
 
     fn reseeded(&self, seed: Seed) -> Box<dyn PointSet> {
-        Box::new(Self::randomized(self.plain.clone(), self.dims, self.randomization, seed))
+        Box::new(Self::randomized(self.plain.clone(), self.depth, self.randomization, seed, self.dims))
+    }
+
+    fn generating_matrices(&self) -> Option<Vec<Vec<u64>>> {
+        let matrix = |dim| (0..self.depth).map(|k| self.plain[k * self.dims + dim]).collect();
+        Some((0..self.dims).map(matrix).collect())
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {

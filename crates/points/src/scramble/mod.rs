@@ -10,9 +10,12 @@
 //! | `linear` | yes | the same, but with heavier tails | none, but set-up |
 //! | `linear_i_binomial` | yes | the same, with fewer random bits | none, but set-up |
 //! | `linear_striped` | yes | n⁻⁴ in one dimension | none, but set-up |
+//! | `digit_permutation` | yes | n⁻²; in base 2 the same as `digital_shift` | small |
 //! | `digital_shift` | yes | n⁻² | none |
 //! | `shift` | lattices, not nets | n⁻² | none |
+//! | `shift_tent` | no | n⁻⁴ for lattices | none |
 
+pub mod digit_permutation;
 pub mod digital_shift;
 pub mod linear;
 pub mod linear_i_binomial;
@@ -22,6 +25,7 @@ pub mod none;
 pub mod owen;
 pub mod owen_exact;
 pub mod shift;
+pub mod shift_tent;
 
 use crate::{Error, Seed};
 
@@ -32,8 +36,12 @@ pub enum Randomization {
     None,
     /// Add the same random numbers to all points, modulo 1: [`shift`].
     Shift,
+    /// The same, then fold every coordinate: [`shift_tent`].
+    ShiftTent,
     /// Add the same random digits to all points: [`digital_shift`].
     DigitalShift,
+    /// Permute the digits of every place, the same way for all points: [`digit_permutation`].
+    DigitPermutation,
     /// Multiply the digits by a random lower triangular matrix, then shift them: [`linear`].
     Linear,
     /// The same, with one random digit for each column: [`linear_striped`].
@@ -55,7 +63,7 @@ pub struct Entry {
     pub name: &'static str,
     /// Where it was published.
     pub cite: &'static str,
-    /// The base-2 form: a bijection of 64-bit words.
+    /// The base-2 form: a map of 64-bit words that keeps their distribution, a bijection unless it folds.
     pub apply: fn(word: u64, key: Seed) -> u64,
     /// Whether the base-2 form is affine over {0, 1}: then it can be built into generating matrices.
     pub affine: bool,
@@ -67,7 +75,9 @@ pub struct Entry {
 pub static ALL: &[&Entry] = &[
     &none::ENTRY,
     &shift::ENTRY,
+    &shift_tent::ENTRY,
     &digital_shift::ENTRY,
+    &digit_permutation::ENTRY,
     &linear::ENTRY,
     &linear_striped::ENTRY,
     &linear_i_binomial::ENTRY,
@@ -88,6 +98,21 @@ impl Randomization {
         Self::None,
     ];
 
+    /// What a sequence in any other prime base takes, its default first.
+    pub const ANY_BASE: &'static [Self] = &[
+        Self::Owen,
+        Self::OwenExact,
+        Self::Linear,
+        Self::LinearStriped,
+        Self::LinearIBinomial,
+        Self::DigitPermutation,
+        Self::DigitalShift,
+        Self::Shift,
+        Self::None,
+    ];
+    /// What a lattice takes, its default first.
+    pub const MODULAR: &'static [Self] = &[Self::Shift, Self::ShiftTent, Self::None];
+
     /// The randomization of this name.
     ///
     /// # Errors
@@ -107,7 +132,9 @@ impl Randomization {
         match self {
             Self::None => &none::ENTRY,
             Self::Shift => &shift::ENTRY,
+            Self::ShiftTent => &shift_tent::ENTRY,
             Self::DigitalShift => &digital_shift::ENTRY,
+            Self::DigitPermutation => &digit_permutation::ENTRY,
             Self::Linear => &linear::ENTRY,
             Self::LinearStriped => &linear_striped::ENTRY,
             Self::LinearIBinomial => &linear_i_binomial::ENTRY,

@@ -4,21 +4,33 @@
 //! golden values, the Python names and the error messages follow from the list.
 
 pub mod correlated_multi_jittered;
+pub mod digital_net;
 pub mod dyadic;
+pub mod faure;
+pub mod fibonacci;
 pub mod halton;
+pub mod hammersley;
 pub mod independent;
+pub mod interlaced_sobol;
+pub mod korobov;
+pub mod kronecker;
 pub mod latin_hypercube;
+pub mod lattice;
 #[cfg(feature = "generators")]
 pub mod mersenne_twister;
 pub mod multi_jittered;
+pub mod niederreiter;
+pub mod niederreiter_xing;
 pub mod orthogonal_array;
 #[cfg(feature = "generators")]
 pub mod pcg;
 pub mod philox;
+pub mod polynomial_lattice;
 pub mod progressive_multi_jittered;
 pub mod sobol;
 pub mod stratified;
 pub mod sz;
+pub mod van_der_corput;
 
 use crate::scramble::Randomization;
 use crate::{Error, PointSet, Seed};
@@ -73,18 +85,24 @@ pub struct Options {
     pub strength: Option<u32>,
     /// The generator of a lattice, one number or one for each dimension.
     pub generator: Option<Vec<u64>>,
+    /// The generating matrices of a digital net, one for each dimension: the numbers that write their columns.
+    pub matrices: Option<Vec<Vec<u64>>>,
+    /// The digits of a column of these matrices; the first is the most significant of so many bits.
+    pub bits: Option<u32>,
 }
 
 impl Options {
     /// The names of the options that are given.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
-        let Self { n, base, order, strength, generator } = self;
+        let Self { n, base, order, strength, generator, matrices, bits } = self;
         let all = [
             ("n", n.is_some()),
             ("base", base.is_some()),
             ("order", order.is_some()),
             ("strength", strength.is_some()),
             ("generator", generator.is_some()),
+            ("matrices", matrices.is_some()),
+            ("bits", bits.is_some()),
         ];
         all.into_iter().filter_map(|(name, given)| given.then_some(name))
     }
@@ -95,9 +113,21 @@ pub static ALL: &[&Entry] = &[
     &sobol::ENTRY,
     &halton::ENTRY,
     &independent::ENTRY,
+    &niederreiter_xing::ENTRY,
+    &interlaced_sobol::ENTRY,
+    &digital_net::ENTRY,
+    &van_der_corput::ENTRY,
+    &hammersley::ENTRY,
+    &faure::ENTRY,
+    &niederreiter::ENTRY,
     &dyadic::ENTRY,
     &sz::ENTRY,
     &progressive_multi_jittered::ENTRY,
+    &lattice::ENTRY,
+    &polynomial_lattice::ENTRY,
+    &kronecker::ENTRY,
+    &korobov::ENTRY,
+    &fibonacci::ENTRY,
     &latin_hypercube::ENTRY,
     &orthogonal_array::ENTRY,
     &stratified::ENTRY,

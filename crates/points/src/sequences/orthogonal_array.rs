@@ -157,7 +157,7 @@ fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
     let next = least.max(p + 1);
     let above = (next..2 * next).find(|&p| is_prime(p)).and_then(power); // Bertrand: there is one
     let allowed = format!("p^{strength} for a prime p of at least d - 1 = {least}");
-    Err(wrong_count(sequence, n, &allowed, [below, above]))
+    Err(wrong_count(sequence, n, &allowed, [below, above], shuffle::MOST))
 }
 
 fn is_prime(p: u64) -> bool {

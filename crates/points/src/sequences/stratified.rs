@@ -62,7 +62,7 @@ fn build(spec: &Spec) -> Result<Box<dyn PointSet>, Error> {
         return Ok(Box::new(Stratified::new(spec.dims, n, spec.seed)));
     }
     let allowed = format!("the {}th power of a whole number", spec.dims);
-    Err(wrong_count("stratified", n, &allowed, [power(side), power(side + 1)]))
+    Err(wrong_count("stratified", n, &allowed, [power(side), power(side + 1)], shuffle::MOST))
 }
 
 impl PointSet for Stratified {

@@ -4,8 +4,12 @@
 //! promises that do not depend on the last bit.
 
 use std::collections::HashMap;
-use std::f32::consts::TAU;
 use std::path::Path;
+
+#[path = "../../tests/random/mod.rs"]
+mod random;
+
+use random::Random;
 
 use super::wide::brute_force;
 use super::{KernelChoice, RayKernel, TriangleSoup, Wide, build};
@@ -99,9 +103,9 @@ impl Mesh {
     fn random_soup(random: &mut Random, triangles: u32, size: f32, scale: f32) -> Self {
         let mut mesh = Self::default();
         for triangle in 0..triangles {
-            let center = random.point();
+            let center = point(random);
             for _ in 0..3 {
-                mesh.positions.push(((center + random.point() * size) * scale).to_array());
+                mesh.positions.push(((center + point(random) * size) * scale).to_array());
             }
             mesh.indices.push([3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
         }
@@ -116,28 +120,9 @@ impl Mesh {
     }
 }
 
-/// `SplitMix64` (Steele, Lea and Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e3779b97f4a7c15);
-        let x = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58476d1ce4e5b9);
-        let x = (x ^ x >> 27).wrapping_mul(0x94d049bb133111eb);
-        ((x ^ x >> 31) >> 40) as f32 / (1 << 24) as f32
-    }
-
-    /// In the cube [-1, 1)³.
-    fn point(&mut self) -> Vec3 {
-        Vec3::new(self.uniform(), self.uniform(), self.uniform()) * 2.0 - 1.0
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        let z = 2.0 * self.uniform() - 1.0;
-        let (sin, cos) = (TAU * self.uniform()).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        Vec3::new(r * cos, r * sin, z)
-    }
+/// In the cube [-1, 1)³.
+fn point(random: &mut Random) -> Vec3 {
+    random.point() * 2.0 - 1.0
 }
 
 fn ray(origin: Vec3, direction: Vec3) -> Ray {
@@ -182,7 +167,7 @@ fn assert_watertight(mesh: &Mesh, origins: &[Vec3]) {
 fn spheres_are_watertight() {
     let mut random = Random(1);
     let mut origins = vec![Vec3::ZERO];
-    origins.extend((0..EFFORT).map(|_| random.point() * 0.5));
+    origins.extend((0..EFFORT).map(|_| point(&mut random) * 0.5));
     assert_watertight(&Mesh::icosphere(if EFFORT == 1 { 3 } else { 4 }), &origins);
 }
 
@@ -192,7 +177,7 @@ fn cubes_are_watertight() {
     // Some origins lie in grid planes, so that many rays run inside faces of boxes.
     let mut origins =
         vec![Vec3::ZERO, Vec3::new(0.25, 0.5, -0.125), Vec3::new(0.0, 0.5, 0.0), Vec3::new(-0.0, 0.1, 0.5)];
-    origins.extend((0..EFFORT).map(|_| random.point() * 0.9));
+    origins.extend((0..EFFORT).map(|_| point(&mut random) * 0.9));
     assert_watertight(&Mesh::cube_grid(if EFFORT == 1 { 8 } else { 16 }), &origins);
 }
 
@@ -247,9 +232,9 @@ fn the_house_kernel_agrees_with_trying_all_triangles() {
         let soup = mesh.soup();
         let kernels = house_kernels(&soup);
         for i in 0..1000 * EFFORT.min(10) {
-            let mut ray = ray(random.point() * scale, random.direction());
+            let mut ray = ray(point(&mut random) * scale, random.direction());
             if i % 3 == 0 {
-                ray.t_max = random.uniform() * scale;
+                ray.t_max = random.next() * scale;
             }
             let expected = brute_force(&soup, &ray);
             for kernel in &kernels {
@@ -266,7 +251,7 @@ fn all_kernels_see_the_same_surface() {
     let mesh = Mesh::random_soup(&mut random, 500, 0.2, 1.0);
     let kernels = kernels(&mesh.soup());
     for _ in 0..2000 {
-        let ray = ray(random.point(), random.direction());
+        let ray = ray(point(&mut random), random.direction());
         let expected = kernels[0].closest(&ray);
         for kernel in &kernels[1..] {
             let hit = kernel.closest(&ray);
@@ -285,7 +270,7 @@ fn the_interval_is_open_at_both_ends() {
     let mesh = Mesh::random_soup(&mut random, 100, 0.5, 1.0);
     for kernel in kernels(&mesh.soup()) {
         for _ in 0..500 {
-            let long = ray(random.point(), random.direction());
+            let long = ray(point(&mut random), random.direction());
             let Some(hit) = kernel.closest(&long) else { continue };
             let short = Ray { t_max: hit.t, ..long };
             assert_eq!(kernel.closest(&short), None, "{}", kernel.name());

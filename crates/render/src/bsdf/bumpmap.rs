@@ -5,9 +5,9 @@
 use std::sync::Arc;
 
 use crate::Result;
-use crate::bsdf::perturbed::Perturbed;
-use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
-use crate::geometry::{Rgb, Surface, Vec3};
+use crate::bsdf::Bsdf;
+use crate::bsdf::perturbed::{Normals, Perturbed};
+use crate::geometry::{Surface, Vec3};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::node::Kind;
 use crate::scene::properties::Properties;
@@ -15,11 +15,10 @@ use crate::texture::Texture;
 
 pub(crate) const ENTRY: Entry<dyn Bsdf> = Entry { name: "bumpmap", build };
 
-/// A surface that looks displaced.
-pub struct BumpMap {
+/// The relief of a surface that looks displaced.
+struct BumpMap {
     height: Arc<dyn Texture>,
     scale: f32,
-    perturbed: Perturbed,
 }
 
 fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn Bsdf>> {
@@ -30,10 +29,10 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn B
         }
     };
     let scale = properties.float("scale", 1.0)?;
-    Ok(Arc::new(BumpMap { height, scale, perturbed: Perturbed::build(properties, builder)? }))
+    Ok(Arc::new(Perturbed::build(BumpMap { height, scale }, properties, builder)?))
 }
 
-impl BumpMap {
+impl Normals for BumpMap {
     /// The displaced surface's normal, in the shading frame and on the geometric normal's side.
     #[inline]
     fn normal(&self, surface: &Surface) -> Vec3 {
@@ -44,31 +43,5 @@ impl BumpMap {
         let bumped = dp_du.cross(dp_dv).normalize_or(n);
         let side = 1.0_f32.copysign(bumped.dot(surface.geometric_normal));
         surface.shading.to_local(bumped * side)
-    }
-}
-
-impl Bsdf for BumpMap {
-    fn sample(&self, surface: &Surface, wo: Vec3, lobe: f32, u: [f32; 2]) -> Option<BsdfSample> {
-        self.perturbed.sample(surface, (self.normal(surface), wo), lobe, u)
-    }
-
-    fn evaluate(&self, surface: &Surface, wo: Vec3, wi: Vec3) -> BsdfValue {
-        self.perturbed.evaluate(surface, self.normal(surface), wo, wi)
-    }
-
-    fn has_smooth_lobe(&self) -> bool {
-        self.perturbed.nested.has_smooth_lobe()
-    }
-
-    fn needs_tangents(&self) -> bool {
-        true
-    }
-
-    fn transmits(&self) -> bool {
-        self.perturbed.nested.transmits()
-    }
-
-    fn albedo(&self, surface: &Surface) -> Rgb {
-        self.perturbed.nested.albedo(surface)
     }
 }

@@ -5,28 +5,19 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::bsdf::fresnel;
+use crate::bsdf::glass::Glass;
 use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
 use crate::geometry::{Rgb, Surface, Vec3};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 
-use crate::texture::slot::ColorSlot;
-
 pub(crate) const ENTRY: Entry<dyn Bsdf> = Entry { name: "dielectric", build };
 
 /// Clear glass.
-pub struct Dielectric {
-    eta: f32,
-    reflectance: ColorSlot,
-    transmittance: ColorSlot,
-}
+pub struct Dielectric(Glass);
 
 fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn Bsdf>> {
-    Ok(Arc::new(Dielectric {
-        eta: fresnel::relative_ior(properties, "bk7")?,
-        reflectance: ColorSlot::build(properties, builder, "specular_reflectance", 1.0)?,
-        transmittance: ColorSlot::build(properties, builder, "specular_transmittance", 1.0)?,
-    }))
+    Ok(Arc::new(Dielectric(Glass::build(properties, builder)?)))
 }
 
 impl Bsdf for Dielectric {
@@ -34,15 +25,15 @@ impl Bsdf for Dielectric {
         if wo.z == 0.0 {
             return None;
         }
-        let interface = fresnel::dielectric(wo.z, self.eta);
+        let interface = fresnel::dielectric(wo.z, self.0.eta);
         if lobe < interface.reflectance {
-            let weight = self.reflectance.evaluate(surface.uv);
+            let weight = self.0.reflectance.evaluate(surface.uv);
             return Some(BsdfSample::mirror(wo, weight, interface.reflectance));
         }
         // Radiance is compressed into a narrower cone: eta_ti² (Veach 1997, section 5.2).
         Some(BsdfSample {
             wi: Vec3::new(-interface.eta_ti * wo.x, -interface.eta_ti * wo.y, interface.cos_t),
-            weight: self.transmittance.evaluate(surface.uv) * (interface.eta_ti * interface.eta_ti),
+            weight: self.0.transmittance.evaluate(surface.uv) * (interface.eta_ti * interface.eta_ti),
             density: 1.0 - interface.reflectance,
             delta: true,
             eta: interface.eta_it,
@@ -62,6 +53,6 @@ impl Bsdf for Dielectric {
     }
 
     fn albedo(&self, surface: &Surface) -> Rgb {
-        self.transmittance.evaluate(surface.uv)
+        self.0.transmittance.evaluate(surface.uv)
     }
 }

@@ -102,6 +102,7 @@ pub mod twosided;
 mod coat;
 mod fresnel;
 mod gauss;
+mod glass;
 mod interface;
 mod metal;
 mod microfacet;

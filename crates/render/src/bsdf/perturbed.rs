@@ -9,21 +9,29 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
-use crate::geometry::{Frame, Surface, Vec3};
+use crate::geometry::{Frame, Rgb, Surface, Vec3};
 use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 
+/// Where the other normal comes from.
+pub(crate) trait Normals: Send + Sync {
+    /// The unit normal in the shading frame.
+    fn normal(&self, surface: &Surface) -> Vec3;
+}
+
 /// A scattering function about a perturbed normal.
-pub(crate) struct Perturbed {
-    pub nested: Arc<dyn Bsdf>,
+pub(crate) struct Perturbed<N> {
+    normals: N,
+    nested: Arc<dyn Bsdf>,
     flip: bool,
     shadowing: bool,
 }
 
-impl Perturbed {
+impl<N: Normals> Perturbed<N> {
     /// Read the nested BSDF, `flip_invalid_normals` and `use_shadowing_function`.
-    pub(crate) fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Self> {
+    pub(crate) fn build(normals: N, properties: &Properties<'_>, builder: &mut Builder) -> Result<Self> {
         Ok(Self {
+            normals,
             flip: properties.boolean("flip_invalid_normals", true)?,
             shadowing: properties.boolean("use_shadowing_function", true)?,
             nested: builder.only_bsdf(properties)?,
@@ -32,7 +40,8 @@ impl Perturbed {
 
     /// The perturbed frame in local coordinates, its tangent as near to the old one as can be, and the surface as the nested BSDF sees it.
     #[inline]
-    fn frame(&self, surface: &Surface, n: Vec3, wo: Vec3) -> (Frame, Surface) {
+    fn frame(&self, surface: &Surface, wo: Vec3) -> (Frame, Surface) {
+        let n = self.normals.normal(surface);
         let n = if self.flip && n.dot(wo) * wo.z <= 0.0 { Vec3::new(-n.x, -n.y, n.z) } else { n };
         let local = Frame::from_normal_and_tangent(n, Vec3::X);
         let world = |v: Vec3| surface.shading.to_world(v);
@@ -50,17 +59,11 @@ impl Perturbed {
         let alpha_squared = (0.125 * tangent_squared(n)).min(1.0);
         2.0 / (1.0 + (1.0 + alpha_squared * tangent_squared(wi)).sqrt())
     }
+}
 
-    /// Sample about the local unit normal `n`.
-    #[inline]
-    pub(crate) fn sample(
-        &self,
-        surface: &Surface,
-        (n, wo): (Vec3, Vec3),
-        lobe: f32,
-        u: [f32; 2],
-    ) -> Option<BsdfSample> {
-        let (frame, perturbed) = self.frame(surface, n, wo);
+impl<N: Normals> Bsdf for Perturbed<N> {
+    fn sample(&self, surface: &Surface, wo: Vec3, lobe: f32, u: [f32; 2]) -> Option<BsdfSample> {
+        let (frame, perturbed) = self.frame(surface, wo);
         let sample = self.nested.sample(&perturbed, frame.to_local(wo), lobe, u)?;
         let wi = frame.to_world(sample.wi);
         if wi.z * sample.wi.z <= 0.0 {
@@ -69,15 +72,29 @@ impl Perturbed {
         Some(BsdfSample { wi, weight: sample.weight * self.shadow(frame.n, wi), ..sample })
     }
 
-    /// Evaluate about the local unit normal `n`.
-    #[inline]
-    pub(crate) fn evaluate(&self, surface: &Surface, n: Vec3, wo: Vec3, wi: Vec3) -> BsdfValue {
-        let (frame, perturbed) = self.frame(surface, n, wo);
+    fn evaluate(&self, surface: &Surface, wo: Vec3, wi: Vec3) -> BsdfValue {
+        let (frame, perturbed) = self.frame(surface, wo);
         let bent = frame.to_local(wi);
         if wi.z * bent.z <= 0.0 {
             return BsdfValue::ZERO;
         }
         let result = self.nested.evaluate(&perturbed, frame.to_local(wo), bent);
         BsdfValue { value: result.value * self.shadow(frame.n, wi), ..result }
+    }
+
+    fn has_smooth_lobe(&self) -> bool {
+        self.nested.has_smooth_lobe()
+    }
+
+    fn needs_tangents(&self) -> bool {
+        true
+    }
+
+    fn transmits(&self) -> bool {
+        self.nested.transmits()
+    }
+
+    fn albedo(&self, surface: &Surface) -> Rgb {
+        self.nested.albedo(surface)
     }
 }

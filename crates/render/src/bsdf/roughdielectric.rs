@@ -5,35 +5,27 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::bsdf::fresnel;
+use crate::bsdf::glass::Glass;
 use crate::bsdf::microfacet::{Microfacets, Roughness};
 use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
 use crate::geometry::{Rgb, Surface, Vec3};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
 
-use crate::texture::slot::ColorSlot;
-
 pub(crate) const ENTRY: Entry<dyn Bsdf> = Entry { name: "roughdielectric", build };
 
 /// Ground glass.
 pub struct RoughDielectric {
-    eta: f32,
+    glass: Glass,
     roughness: Roughness,
-    reflectance: ColorSlot,
-    transmittance: ColorSlot,
 }
 
 fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn Bsdf>> {
-    let eta = fresnel::relative_ior(properties, "bk7")?;
-    if eta == 1.0 {
+    let glass = Glass::build(properties, builder)?;
+    if glass.eta == 1.0 {
         return Err(properties.error("the interior and exterior indices of refraction must differ"));
     }
-    Ok(Arc::new(RoughDielectric {
-        eta,
-        roughness: Roughness::build(properties, builder)?,
-        reflectance: ColorSlot::build(properties, builder, "specular_reflectance", 1.0)?,
-        transmittance: ColorSlot::build(properties, builder, "specular_transmittance", 1.0)?,
-    }))
+    Ok(Arc::new(RoughDielectric { glass, roughness: Roughness::build(properties, builder)? }))
 }
 
 impl RoughDielectric {
@@ -45,21 +37,21 @@ impl RoughDielectric {
         if cos_o * wo.z <= 0.0 || cos_i * wi.z <= 0.0 || area == 0.0 {
             return BsdfValue::ZERO;
         }
-        let interface = fresnel::dielectric(cos_o, self.eta);
+        let interface = fresnel::dielectric(cos_o, self.glass.eta);
         let upper = if wo.z < 0.0 { -wo } else { wo };
         let normal_density = facets.widened(wo.z).density(upper, m);
         let common = area * facets.shadowing(wi, wo, m);
         if wo.z * wi.z > 0.0 {
             let value = interface.reflectance * common / (4.0 * wo.z.abs());
             let density = interface.reflectance * normal_density / (4.0 * cos_i.abs());
-            return BsdfValue { value: self.reflectance.evaluate(surface.uv) * value, density };
+            return BsdfValue { value: self.glass.reflectance.evaluate(surface.uv) * value, density };
         }
         // Walter et al. 2007, equations 17 and 21; radiance adds eta_ti², which cancels eta_it² in the value.
         let (share, eta) = (1.0 - interface.reflectance, interface.eta_it);
         let denominator = (cos_o + eta * cos_i) * (cos_o + eta * cos_i);
         let value = (share * common * cos_i * cos_o / (wo.z * denominator)).abs();
         let density = share * normal_density * eta * eta * cos_i.abs() / denominator;
-        BsdfValue { value: self.transmittance.evaluate(surface.uv) * value, density }
+        BsdfValue { value: self.glass.transmittance.evaluate(surface.uv) * value, density }
     }
 }
 
@@ -72,7 +64,7 @@ impl Bsdf for RoughDielectric {
         let upper = if wo.z < 0.0 { -wo } else { wo };
         let m = facets.widened(wo.z).sample(upper, u);
         let cos_o = wo.dot(m);
-        let interface = fresnel::dielectric(cos_o, self.eta);
+        let interface = fresnel::dielectric(cos_o, self.glass.eta);
         let reflects = lobe < interface.reflectance;
         let (wi, eta) = if reflects {
             (2.0 * cos_o * m - wo, 1.0)
@@ -92,8 +84,8 @@ impl Bsdf for RoughDielectric {
         }
         let ratio = match (wo.z * wi.z > 0.0, wo.z > 0.0) {
             (true, _) => 1.0,
-            (false, true) => self.eta,
-            (false, false) => 1.0 / self.eta,
+            (false, true) => self.glass.eta,
+            (false, false) => 1.0 / self.glass.eta,
         };
         let m = (wo + wi * ratio).normalize();
         let m = if m.z < 0.0 { -m } else { m };
@@ -109,6 +101,6 @@ impl Bsdf for RoughDielectric {
     }
 
     fn albedo(&self, surface: &Surface) -> Rgb {
-        self.transmittance.evaluate(surface.uv)
+        self.glass.transmittance.evaluate(surface.uv)
     }
 }

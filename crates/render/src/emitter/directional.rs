@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::Result;
+use crate::emitter::placement::vector_or_transform;
 use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
@@ -20,14 +21,7 @@ struct Directional {
 }
 
 fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter>> {
-    let to_world = crate::shape::to_world(properties)?;
-    let direction = match properties.optional_vector("direction")? {
-        Some(_) if properties.has("to_world") => {
-            return Err(properties.error("direction and to_world exclude each other"));
-        }
-        Some(direction) => DVec3::from(direction),
-        None => to_world.matrix3 * DVec3::Z,
-    };
+    let direction = vector_or_transform(properties, "direction", |to_world| to_world.matrix3 * DVec3::Z)?;
     let direction = direction.try_normalize().ok_or_else(|| properties.error("direction must not vanish"))?;
     let irradiance = properties.optional_rgb("irradiance")?.unwrap_or(Rgb::ONE);
     Ok(Arc::new(Directional { direction: direction.as_vec3().into(), irradiance }))

@@ -9,6 +9,7 @@ pub mod area;
 pub mod constant;
 pub mod directional;
 pub mod envmap;
+mod placement;
 pub mod point;
 pub mod selection;
 mod sky;

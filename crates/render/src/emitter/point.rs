@@ -3,9 +3,8 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use crate::Result;
+use crate::emitter::placement::vector_or_transform;
 use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
@@ -19,14 +18,7 @@ struct Point {
 }
 
 fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter>> {
-    let to_world = crate::shape::to_world(properties)?;
-    let position = match properties.optional_vector("position")? {
-        Some(_) if properties.has("to_world") => {
-            return Err(properties.error("position and to_world exclude each other"));
-        }
-        Some(position) => DVec3::from(position),
-        None => to_world.translation,
-    };
+    let position = vector_or_transform(properties, "position", |to_world| to_world.translation)?;
     let intensity = properties.optional_rgb("intensity")?.unwrap_or(Rgb::ONE);
     Ok(Arc::new(Point { position: position.as_vec3().into(), intensity }))
 }

@@ -10,6 +10,7 @@ use crate::film::FilmSettings;
 use crate::geometry::Vec3;
 use crate::integrator::{Mis, Transport};
 use crate::memory::use_large_pages;
+use crate::scene::analytic::{AnalyticShapes, Numbered};
 use crate::scene::build::Builder;
 use crate::scene::node::{Kind, Node};
 use crate::scene::properties::Properties;
@@ -80,7 +81,7 @@ struct Assembly {
     shapes: Vec<PlacedShape>,
     emitters: Vec<Arc<dyn Emitter>>,
     triangles: Vec<ShadingTriangle>,
-    analytic: Vec<(u32, [Vec3; 2])>,
+    analytic: Vec<Numbered>,
     positions: Vec<[f32; 3]>,
     indices: Vec<[u32; 3]>,
 }
@@ -100,7 +101,7 @@ impl Assembly {
         });
         let analytic = match geometry {
             Geometry::Analytic(analytic) => {
-                self.analytic.push((number, analytic.bounds()));
+                self.analytic.push((number, analytic.clone()));
                 Some(analytic)
             }
             Geometry::Mesh(mesh) | Geometry::Parallelogram(mesh) => {
@@ -131,7 +132,12 @@ impl Assembly {
             });
         Ok(Scene {
             environments: environments.collect(),
-            world: World { kernel, triangles: self.triangles, shapes: self.shapes, analytic: self.analytic },
+            world: World {
+                kernel,
+                triangles: self.triangles,
+                shapes: self.shapes,
+                analytic: AnalyticShapes::new(self.analytic),
+            },
             emitters: self.emitters,
             selection,
             transport: parts.transport,
@@ -145,7 +151,7 @@ impl Assembly {
     fn bounds(&self) -> SceneSphere {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let corners = self.positions.iter().map(|&p| Vec3::from(p));
-        for corner in corners.chain(self.analytic.iter().flat_map(|(_, bounds)| *bounds)) {
+        for corner in corners.chain(self.analytic.iter().flat_map(|(_, shape)| shape.bounds())) {
             low = low.min(corner);
             high = high.max(corner);
         }

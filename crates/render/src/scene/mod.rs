@@ -15,6 +15,7 @@ use crate::scene::node::Node;
 use crate::scene::world::{Hit, World};
 use crate::sensor::Sensor;
 
+mod analytic;
 mod assemble;
 pub mod build;
 pub mod folder;

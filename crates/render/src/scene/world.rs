@@ -7,6 +7,7 @@ use crate::bsdf::Bsdf;
 use crate::emitter::EmitterHit;
 use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3};
 use crate::memory::prefetch;
+use crate::scene::analytic::AnalyticShapes;
 use crate::scene::mesh::Mesh;
 use crate::shape::Analytic;
 
@@ -118,8 +119,8 @@ pub struct World {
     /// The triangles of the kernel, as shading sees them.
     pub(crate) triangles: Vec<ShadingTriangle>,
     pub(crate) shapes: Vec<PlacedShape>,
-    /// The analytic shapes, with their bounding boxes; few enough to try one after the other.
-    pub(crate) analytic: Vec<(u32, [Vec3; 2])>,
+    /// The shapes that are not in the kernel.
+    pub(crate) analytic: AnalyticShapes,
 }
 
 /// A surface point where a path scatters.
@@ -161,12 +162,9 @@ impl World {
             Hit { t, shape, triangle, barycentric: [u, v] }
         });
         if !self.analytic.is_empty() {
-            let mut ray = Ray { t_max: hit.map_or(ray.t_max, |hit| hit.t), ..*ray };
-            for (shape, t) in self.analytic_hits(ray) {
-                if t < ray.t_max {
-                    ray.t_max = t;
-                    hit = Some(Hit { t, shape, triangle: 0, barycentric: [0.0; 2] });
-                }
+            let ray = Ray { t_max: hit.map_or(ray.t_max, |hit| hit.t), ..*ray };
+            if let Some((shape, t)) = self.analytic.closest(ray) {
+                hit = Some(Hit { t, shape, triangle: 0, barycentric: [0.0; 2] });
             }
         }
         hit
@@ -196,23 +194,9 @@ impl World {
         self.kernel.occluded_each(rays, occluded);
         if !self.analytic.is_empty() {
             for (occluded, ray) in occluded.iter_mut().zip(rays) {
-                *occluded |= self.analytic_hits(*ray).next().is_some();
+                *occluded = *occluded || self.analytic.occluded(*ray);
             }
         }
-    }
-
-    fn analytic_hits(&self, ray: Ray) -> impl Iterator<Item = (u32, f32)> {
-        let inverse = ray.direction.recip();
-        let near = self.analytic.iter().filter(move |(_, [low, high])| {
-            let (a, b) = ((*low - ray.origin) * inverse, (*high - ray.origin) * inverse);
-            // NaN (a ray in a face of the box) must not reject: comparisons are written to keep it
-            let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
-            !(enter > leave * 1.0001 || leave < 0.0 || enter > ray.t_max)
-        });
-        near.filter_map(move |&(shape, _)| {
-            let analytic = self.shapes[shape as usize].analytic.as_ref()?;
-            analytic.intersect(&ray).map(|t| (shape, t))
-        })
     }
 
     #[inline]

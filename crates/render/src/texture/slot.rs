@@ -8,16 +8,42 @@ use crate::scene::build::Builder;
 use crate::scene::properties::Properties;
 use crate::texture::Texture;
 
-/// A color parameter.
+/// What a texture is read as.
+pub(crate) trait Reading: Copy {
+    /// The texture's value at `uv`.
+    fn of(texture: &dyn Texture, uv: Vec2) -> Self;
+}
+
+impl Reading for Rgb {
+    #[inline]
+    fn of(texture: &dyn Texture, uv: Vec2) -> Self {
+        texture.evaluate(uv)
+    }
+}
+
+impl Reading for f32 {
+    #[inline]
+    fn of(texture: &dyn Texture, uv: Vec2) -> Self {
+        texture.evaluate_scalar(uv)
+    }
+}
+
+/// A parameter that may vary.
 #[derive(Clone)]
-pub(crate) enum ColorSlot {
+pub(crate) enum Slot<T> {
     /// The same everywhere.
-    Constant(Rgb),
+    Constant(T),
     /// Anything else.
     Varying(Arc<dyn Texture>),
 }
 
-impl ColorSlot {
+/// A color parameter.
+pub(crate) type ColorSlot = Slot<Rgb>;
+
+/// A number that may vary.
+pub(crate) type NumberSlot = Slot<f32>;
+
+impl<T: Reading> Slot<T> {
     /// Read the parameter `name`: a nested texture, a color or a number; `default` is gray.
     pub(crate) fn build(
         properties: &Properties<'_>,
@@ -25,67 +51,29 @@ impl ColorSlot {
         name: &str,
         default: f32,
     ) -> Result<Self> {
-        Ok(Self::new(&builder.texture(properties, name, Rgb::splat(default))?))
-    }
-
-    fn new(texture: &Arc<dyn Texture>) -> Self {
-        if texture.is_constant() {
-            Self::Constant(texture.evaluate(Vec2::ZERO))
+        let texture = builder.texture(properties, name, Rgb::splat(default))?;
+        Ok(if texture.is_constant() {
+            Self::Constant(T::of(&*texture, Vec2::ZERO))
         } else {
-            Self::Varying(texture.clone())
-        }
+            Self::Varying(texture)
+        })
     }
 
     #[inline]
-    pub(crate) fn evaluate(&self, uv: Vec2) -> Rgb {
+    pub(crate) fn evaluate(&self, uv: Vec2) -> T {
         match self {
-            Self::Constant(color) => *color,
-            Self::Varying(texture) => texture.evaluate(uv),
+            Self::Constant(value) => *value,
+            Self::Varying(texture) => T::of(&**texture, uv),
         }
     }
+}
 
+impl ColorSlot {
     /// One number for the mean over the unit square, as Mitsuba 3 takes it: of the channels of a constant, else luminance.
     pub(crate) fn mean(&self) -> f32 {
         match self {
             Self::Constant(color) => color.element_sum() / 3.0,
             Self::Varying(texture) => luminance(texture.mean()),
-        }
-    }
-}
-
-/// A number that may vary.
-#[derive(Clone)]
-pub(crate) enum NumberSlot {
-    /// The same everywhere.
-    Constant(f32),
-    /// Anything else.
-    Varying(Arc<dyn Texture>),
-}
-
-impl NumberSlot {
-    /// Read the parameter `name`: a nested texture, a color or a number; `default` is gray.
-    pub(crate) fn build(
-        properties: &Properties<'_>,
-        builder: &mut Builder,
-        name: &str,
-        default: f32,
-    ) -> Result<Self> {
-        Ok(Self::new(&builder.texture(properties, name, Rgb::splat(default))?))
-    }
-
-    fn new(texture: &Arc<dyn Texture>) -> Self {
-        if texture.is_constant() {
-            Self::Constant(texture.evaluate_scalar(Vec2::ZERO))
-        } else {
-            Self::Varying(texture.clone())
-        }
-    }
-
-    #[inline]
-    pub(crate) fn evaluate(&self, uv: Vec2) -> f32 {
-        match self {
-            Self::Constant(number) => *number,
-            Self::Varying(texture) => texture.evaluate_scalar(uv),
         }
     }
 }

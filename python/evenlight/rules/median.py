@@ -1,0 +1,63 @@
+"""The median of replicates: robust against a few bad ones, and for smooth integrands faster than their mean."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar
+
+import numpy as np
+
+from evenlight.estimate import Estimate
+from evenlight.integrand import Integrand
+from evenlight.replicate_means import ReplicateMeans
+
+__all__ = ["Median"]
+
+
+class Median:
+    """The median over R replicates; of independent points it is the median of means.
+
+    With linear scrambles a few bad matrices make most of the error of the mean, and the median leaves them out: its
+    error falls faster than any power of n for analytic integrands (Z. Pan and A. B. Owen, Math. Comp. 92, 805-837,
+    2023). With independent points its intervals are sub-Gaussian for every integrand of finite variance
+    (G. Lugosi and S. Mendelson, Found. Comput. Math. 19, 1145-1190, 2019). It is biased where replicates are skewed.
+
+    The standard error is that of a median of normal replicates, with their spread from the median absolute deviation;
+    where the replicates have heavy tails it is far too large rather than too small.
+    """
+
+    name: ClassVar[str] = "median"
+    first: ClassVar[int] = 128
+    has_error: ClassVar[bool] = True
+
+    def __init__(self, integrand: Integrand, points: Any, replicates: int) -> None:
+        self._replicates = ReplicateMeans(integrand, points, replicates)
+
+    @property
+    def copies(self) -> int:
+        """The number of replicates."""
+        return self._replicates.replicates
+
+    def extend(self, rows: int) -> None:
+        """Evaluate all rows up to `rows` of every replicate."""
+        self._replicates.extend(rows)
+
+    def estimate(self) -> Estimate:
+        """The median of the replicates, and what its standard error is if they are normal."""
+        state = self._replicates
+        if not state.used.all():
+            raise ValueError(f"f is finite at none of {state.rows} points of replicate {int(state.used.argmin())}")
+        value = np.median(state.means, axis=0)
+        spread = 1.482602 * np.median(np.abs(state.means - value), axis=0)
+        error = math.sqrt(math.pi / 2 / (state.replicates - 1)) * spread
+        return Estimate(
+            value=float(value) if value.ndim == 0 else value,
+            standard_error=float(error) if value.ndim == 0 else error,
+            n=int(state.used.sum()),
+            replicates=state.replicates,
+            cost=float(state.rows * state.replicates),
+            method=self.name,
+            diagnostics={"points": (repr(state.points),), "replicates": state.means},
+            # the median absolute deviation has 0.37 times the efficiency of the standard deviation
+            degrees_of_freedom=max(1.0, 0.37 * (state.replicates - 1)),
+        )
