@@ -107,7 +107,7 @@ def test_boxes_anywhere() -> None:
         (lambda: quality.triangle_discrepancy([[0, 0]], [[0, 0], [1, 1], [2, 2]]), "must not be on a line"),
         (lambda: quality.triangle_discrepancy([[1, 1, 1]], np.eye(3)), "point 0 is not in the plane"),
         (
-            lambda: quality.triangle_discrepancy([[0, 0]], [[0, 0], [1, 0], [0, 1]], sets="disks"),
+            lambda: quality.triangle_discrepancy([[0, 0]], [[0, 0], [1, 0], [0, 1]], sets=DISKS),
             "unknown sets 'disks'",
         ),
         (lambda: quality.smallest_t(np.zeros((5, 1))), "a power of 2 of points, not 5"),

@@ -1,8 +1,8 @@
 //! One loop, compiled for several instruction sets.
 //!
 //! The hot loops are plain Rust that the compiler turns into vector instructions; the widest set the
-//! machine has is chosen at run time. They consist of integer arithmetic and exact conversions only,
-//! so that all versions give the same bits.
+//! machine has is chosen at run time. They consist of integer arithmetic, exact conversions, and operations on
+//! floats one by one, in places of their own and without fusion, so that all versions give the same bits.
 
 /// Defines a function `$name` that runs `$body` with the widest instruction set of this machine.
 /// `$body` must be `#[inline(always)]`, to be compiled anew for each of them. Where its generics end in

@@ -205,8 +205,8 @@ def star_discrepancy_cost(x: npt.ArrayLike, *, seed: SupportsIndex = 0) -> float
     Returns
     -------
     float
-        Steps, of some nanoseconds each: the mean over 256 random descents into the tree of cells (Knuth 1975). Unbiased,
-        but with a skewed spread, the more so the larger d: right to a factor of a few.
+        Steps, of some nanoseconds each: the mean over 256 random descents into the tree of cells (Knuth 1975).
+        Unbiased, but with a skewed spread, the more so the larger d: right to a factor of a few.
 
     Raises
     ------

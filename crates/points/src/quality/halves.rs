@@ -23,11 +23,14 @@ pub(super) fn sum_by_halves<S: Shape>(columns: &Columns<S>) -> f64 {
     among(columns, &points, columns.g.len() - 1)
 }
 
-/// About how many nanoseconds [`sum_by_halves`] takes; measured.
+/// About how many nanoseconds [`sum_by_halves`] takes; measured for up to five coordinates, beyond which it never pays.
 pub(super) fn cost<S: Shape>(n: usize, dims: usize) -> f64 {
+    if dims > 5 {
+        return f64::INFINITY;
+    }
     let levels = (n as f64 / 64.0).log2().max(0.0);
     let per_point: f64 = (1..dims).map(|level| S::TERMS as f64 * levels / level as f64).product();
-    n as f64 * (200.0 + 40.0 * per_point)
+    n as f64 * (200.0 + 40.0 * per_point) * (dims as f64 - 2.0).max(1.0)
 }
 
 fn key<S: Shape>(columns: &Columns<S>, dim: usize, i: u32) -> f64 {

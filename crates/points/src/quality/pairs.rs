@@ -169,3 +169,35 @@ fn factors<S: Shape, const K: usize>(
         (1..K).fold(factor(0), |product, k| product * factor(k))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::Ordering;
+
+    use super::super::shapes::{Bowl, Bridge, Least, Tent, Wrap};
+    use super::*;
+    use crate::Seed;
+    use crate::convert::unit_f64;
+    use crate::instruction_sets::WIDEST;
+
+    fn sums<S: Shape>() -> Vec<u64> {
+        let number = |i: usize, dim: usize| {
+            let seed = Seed::new(i as u64).dimension(dim as u64);
+            [0, 1].map(|which| unit_f64(seed.split(16, which).bits64()))
+        };
+        let one =
+            |dims: usize| sum_over_pairs(&Columns::<S>::new(300, vec![0.5; dims], number), NonZeroUsize::MIN);
+        (1..10).map(|dims| one(dims).to_bits()).collect()
+    }
+
+    #[test]
+    fn narrower_vectors_give_the_same_bits() {
+        let all = || [sums::<Tent>(), sums::<Least>(), sums::<Bridge>(), sums::<Bowl>(), sums::<Wrap>()];
+        let wide = all();
+        for widest in [32, 0] {
+            WIDEST.store(widest, Ordering::Relaxed);
+            assert_eq!(all(), wide);
+        }
+        WIDEST.store(64, Ordering::Relaxed);
+    }
+}
