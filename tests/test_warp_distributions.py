@@ -56,7 +56,7 @@ def test_independent_frozen_distributions_multiply() -> None:
 
 
 def test_choices_have_their_shares() -> None:
-    """With n stratified numbers, inversion gives every choice its share up to two points; tables are torn into 37 columns."""
+    """With n stratified numbers, inversion gives every choice its share up to two points; tables have 37 columns."""
     weights = points.Independent(1, seed=9).points(0, 37)[:, 0]
     u = points.Sobol(1, seed=3).points(0, 1024)
     share = 1024 * weights / weights.sum()
