@@ -101,7 +101,7 @@ def triangle_kronecker(
 
     Notes
     -----
-    50 nanoseconds per point. The lattice is scaled so that exactly n of its points are inside; none is added or
+    About 430 nanoseconds per point. The lattice is scaled so that exactly n of its points are inside; none is added or
     deleted.
 
     References: K. Basu and A. B. Owen, *Low discrepancy constructions in the triangle*, SIAM J. Numer. Anal. 53(2),
