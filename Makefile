@@ -87,6 +87,10 @@ bench-points: setup $(PEERS) ## Measure the speed of points against SciPy, QMCPy
 bench-quality: setup ## Measure discrepancies against SciPy, and the time that exact ones take
 	$(BIN)/python -m benches.quality
 
+.PHONY: bench-estimators
+bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, and the optimizer of mixture weights
+	$(BIN)/python -m benches.estimators
+
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps

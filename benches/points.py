@@ -135,6 +135,7 @@ def measure_families(bench: Bench) -> list[Record]:
             "SciPy": (1 << 17, lambda n: qmc.Halton(dims, rng=rng).random(n)),
             "QMCPy": (small, qmcpy.Halton(dims, seed=1)),
         },
+        "faure": {"QMCPy": (67**2, qmcpy.Faure(dims, seed=1))},
         "latin_hypercube": {
             "SciPy": (1 << 17, lambda n: qmc.LatinHypercube(dims, rng=rng).random(n)),
             "QMCPy": (1 << 17, lambda n: qmcpy.LatinHypercube(dims, replications=1, seed=1)(n)),
@@ -142,12 +143,19 @@ def measure_families(bench: Bench) -> list[Record]:
         "lattice": {"QMCPy": (large, qmcpy.Lattice(dims, seed=1, order="LINEAR"))},
     }
     records = []
-    for name, theirs in rivals.items():
+    # SciPy's Halton points have one permutation for each place, so "digit_permutation" is like for like
+    scrambles: dict[str, tuple[str | None, ...]] = {
+        "halton": ("digit_permutation", "owen", "linear"),
+        "faure": ("owen", "digit_permutation"),
+    }
+    pairs = [(name, theirs, scramble) for name, theirs in rivals.items() for scramble in scrambles.get(name, (None,))]
+    for name, theirs, scramble in pairs:
         if name not in points.SEQUENCES:
             continue
         info = next(info for info in points.available() if info.name == name)
         options: dict[str, Any] = {"n": large} if "n" in info.options else {}
-        engine, out = points.build(name, dims, seed=1, **options), bench.out(np.float64, dims, large)
+        engine = points.build(name, dims, scramble=scramble, seed=1, **options)
+        out = bench.out(np.float64, dims, large)
         rates = bench.measure({"evenlight": partial(engine.points, 0, large, out)}, dims * large)
         for rival, (count, run) in theirs.items():
             rates |= bench.measure({f"{rival}, n = {count}": partial(run, count)}, dims * count)

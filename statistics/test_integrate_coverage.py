@@ -25,7 +25,7 @@ PAIRS = [
     ("genz_discontinuous", 4, "halton", 1600, 0.975),
     ("keister", 5, "sobol", 2048, 0.975),
     ("keister", 3, "independent", 1024, 0.975),
-    ("asian_option", 16, "sobol", 1024, 0.975),
+    ("asian_option", 16, "sobol", 4096, 0.975),
     ("asian_option", 8, "independent", 1024, 0.975),
     ("ball", 3, "sobol", 1024, 0.975),
     ("half_space", 4, "latin_hypercube", 800, 0.975),

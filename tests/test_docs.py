@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import importance, integrands, lab, points, quality
+from evenlight import domains, importance, integrands, lab, points, quality, reduction
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -15,6 +15,8 @@ def public_names() -> list[tuple[str, object]]:
     modules = {
         "evenlight": evenlight,
         "evenlight.points": points,
+        "evenlight.domains": domains,
+        "evenlight.reduction": reduction,
         "evenlight.integrands": integrands,
         "evenlight.quality": quality,
         "evenlight.importance": importance,

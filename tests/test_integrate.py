@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import warnings
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 import evenlight
+from conftest import Run
 from evenlight.estimate import NotConvergedWarning
 from evenlight.points import Halton, Independent, LatinHypercube, Sobol
 from evenlight.rules import RULES
@@ -211,3 +213,17 @@ def test_every_rule_has_its_file() -> None:
 
     files = {path.stem for path in (ROOT / "python/evenlight/rules").glob("*.py")}
     assert files == {*RULES, "__init__", "protocol"}
+
+
+def test_the_command_line_integrates(evenlight_command: Run) -> None:
+    done = evenlight_command("integrate", "keister", "--dims", "3", "--rtol", "1e-3", "--json")
+    found = json.loads(done.stdout)
+    assert done.returncode == 0
+    assert abs(found["value"] - found["exact"]) <= 1e-3 * found["exact"]
+    assert found["interval"][0] < found["value"] < found["interval"][1]
+    late = evenlight_command("integrate", "ball", "--sequence", "independent", "--atol", "1e-6", "--max-n", "4096")
+    assert "warning: max_n = 4096 reached" in late.stderr
+    assert "converged=False" in late.stdout
+    wrong = evenlight_command("integrate", "keister", "--n", "100")
+    assert wrong.returncode == 2
+    assert "no multiple of 16 replicates" in wrong.stderr

@@ -7,7 +7,7 @@ import pytest
 
 import evenlight
 from evenlight import integrands, lab
-from evenlight.points import Independent, Sobol
+from evenlight.points import Independent, InterlacedSobol, Sobol
 
 
 @pytest.mark.parametrize("case", lab.RATE_CASES, ids=lambda case: case.label)
@@ -25,6 +25,15 @@ def test_randomization_beats_independent_points_wherever_the_square_is_integrabl
         plain = lab.rates(f, Independent(d), most=2**11, replicates=200).rmse[-1]
         spread = lab.rates(f, Sobol(d), most=2**11, replicates=200).rmse[-1]
         assert spread < 0.8 * plain, name
+
+
+@pytest.mark.parametrize(("order", "slope"), [(2, -2.0), (3, -2.5)])
+def test_interlaced_nets_are_faster_where_the_integrand_is_smooth(order: int, slope: float) -> None:
+    """Theory, up to powers of log n: -2.5 and -3.5 in the end; nets of order 1 stay at -1.5."""
+    f = integrands.build("additive_exponential", 1)
+    measured = lab.rates(f, InterlacedSobol(1, order=order, seed=1), most=2**10, replicates=60)
+    print(f"order {order}: {measured.slope:.3f} ± {measured.slope_error:.3f}")
+    assert measured.slope + 2 * measured.slope_error < slope
 
 
 def test_fixed_points_do_not_converge_where_randomized_ones_do() -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, importance, integrands, points, rules
+from evenlight import _core, cli, domains, importance, integrands, points, rules
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -83,6 +83,7 @@ FAMILIES = {
     "warps": _core.warps(),
     "rules": list(rules.RULES),
     "integrands": list(integrands.INTEGRANDS),
+    "domains": list(domains.DOMAINS),
     "densities": list(importance.DENSITIES),
     "heuristics": list(importance.HEURISTICS),
     "samplers": _core.samplers(),

@@ -11,7 +11,20 @@ import pytest
 from evenlight import _core, points, warp
 
 # As in crates/points/tests/warp_domains/mod.rs, for those that do not do without.
-OPTIONS: dict[str, dict[str, Any]] = {"hilbert": {"dims": 3}, "morton": {"dims": 2}, "gray": {"dims": 5}}
+OPTIONS: dict[str, dict[str, Any]] = {
+    "hilbert": {"dims": 3},
+    "morton": {"dims": 2},
+    "gray": {"dims": 5},
+    "simplex": {"dims": 4},
+    "cap": {"angle": 0.8},
+    "spherical_triangle": {"corners": [[1.0, 0.2, 0.3], [-0.5, 1.5, 0.4], [0.1, -0.3, 1.0]]},
+    "spherical_rectangle": {"corners": [[-0.5, 0.25, 0.75], [1.5, 0.25, 0.75], [-0.5, 1.75, 0.75]]},
+    "piecewise_linear": {"values": [0.5, 2.0, 1.0, 0.0, 3.0]},
+    "piecewise_constant": {"values": [1.0, 0.0, 5.0, 2.0], "knots": [0.0, 0.1, 0.5, 2.0, 3.0]},
+    "discrete": {"values": [3.0, 0.0, 1.0]},
+    "discrete_alias": {"values": [3.0, 0.0, 1.0]},
+    "image": {"values": [[0.0, 1.0, 2.0], [3.0, 0.5, 0.0]]},
+}
 
 
 @pytest.fixture(params=[info.name for info in warp.available()])

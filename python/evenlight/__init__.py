@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import importance, integrands, lab, points, quality, warp
+from evenlight import domains, importance, integrands, lab, points, quality, reduction, warp
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -19,6 +19,7 @@ __all__ = [
     "Film",
     "Scene",
     "__version__",
+    "domains",
     "importance",
     "integrands",
     "integrate",
@@ -26,6 +27,7 @@ __all__ = [
     "load_scene",
     "points",
     "quality",
+    "reduction",
     "render",
     "warp",
 ]

@@ -1,4 +1,4 @@
-"""The command line: `evenlight render | points | info`."""
+"""The command line: `evenlight render | points | integrate | info`."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import json
 import math
 import signal
 import sys
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
@@ -14,7 +15,7 @@ from typing import Any, NoReturn
 from tqdm import tqdm
 
 import evenlight
-from evenlight import _core, points, tables
+from evenlight import _core, integrands, points, rules, tables
 from evenlight.film import Film, check_output
 from evenlight.render import read_scene
 
@@ -98,6 +99,34 @@ def _points(options: argparse.Namespace) -> int:
     return 0
 
 
+def _integrate(options: argparse.Namespace) -> int:
+    problem = integrands.build(options.integrand, options.dims)
+    engine = points.build(options.sequence, options.dims, scramble=options.scramble, seed=options.seed)
+    if options.n is None and options.rtol is None and options.atol is None:
+        options.n = 2**16
+    with warnings.catch_warnings(record=True) as raised:
+        warnings.simplefilter("always")
+        estimate = evenlight.integrate(
+            problem,
+            engine,
+            n=options.n,
+            rtol=options.rtol,
+            atol=options.atol,
+            replicates=options.replicates,
+            level=options.level,
+            max_n=options.max_n,
+            method=options.method,
+        )
+    for warning in raised:
+        print(f"evenlight: warning: {warning.message}", file=sys.stderr)
+    low, high = estimate.confidence_interval(options.level)
+    known = {"exact": problem.exact, "interval": None if math.isnan(low) else [low, high], "level": options.level}
+    print(
+        json.dumps(estimate.to_dict() | known, indent=2) if options.json else f"{estimate!r}, exact {problem.exact!r}"
+    )
+    return 0
+
+
 def _load(options: argparse.Namespace) -> evenlight.Scene:
     scene = read_scene(options.scene, dict(options.define), options.lenient, options.allow_outside, options.kernel)
     for warning in scene.warnings:
@@ -148,6 +177,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND", parser_class=_Parser)
     _add_render(commands.add_parser("render", help="render a scene", description="Render a Mitsuba 3 scene."))
     _add_points(commands.add_parser("points", help="write points", description="Write (randomized) points."))
+    _add_integrate(
+        commands.add_parser("integrate", help="integrate a test function", description="Integrate a test function.")
+    )
     info = commands.add_parser("info", help="say what a scene contains", description="Say what a scene contains.")
     _add_scene(info)
     info.set_defaults(run=_info)
@@ -227,6 +259,24 @@ def _add_points(parser: argparse.ArgumentParser) -> None:
     )
     add("-o", "--output", default="-", metavar="FILE", help=".npy, .csv, or - for CSV on standard output")
     parser.set_defaults(run=_points)
+
+
+def _add_integrate(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("integrand", choices=list(integrands.INTEGRANDS), metavar="INTEGRAND", help=", ".join(integrands.INTEGRANDS))
+    add("--dims", type=int, default=5, help="dimensions (%(default)s)")
+    add("--sequence", choices=list(points.SEQUENCES), default="sobol", help="the points (%(default)s)")
+    add("--scramble", help="how to randomize (the sequence's own default)")
+    add("--n", type=int, help="function values (65536, unless there is a tolerance)")
+    add("--rtol", type=float, help="work up to this relative tolerance")
+    add("--atol", type=float, help="work up to this absolute tolerance")
+    add("--replicates", type=int, default=16, help="independent randomizations, for the error (%(default)s)")
+    add("--level", type=float, default=0.95, help="of the interval and of the tolerance (%(default)s)")
+    add("--max-n", type=int, default=2**24, help="the most function values for a tolerance (%(default)s)")
+    add("--method", choices=["auto", *rules.RULES], default="auto", help="how values become an estimate (%(default)s)")
+    add("--seed", type=int, default=0, help="same seed, same bits (%(default)s)")
+    add("--json", action="store_true", help="print everything as JSON")
+    parser.set_defaults(run=_integrate)
 
 
 def _natural(text: str) -> int:

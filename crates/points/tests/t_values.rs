@@ -89,6 +89,41 @@ fn pairs_are_perfect() {
     }
 }
 
+/// The rows of a Niederreiter matrix in base 2: the digits of x^u / p^q for u below the degree e and q = 1, 2, …
+/// (H. Niederreiter 1988). A polynomial is a bit mask.
+fn niederreiter(p: u64, size: usize) -> Vec<Vec<u32>> {
+    let times = |a: u128| (0..64).filter(|k| p >> k & 1 == 1).fold(0, |sum, k| sum ^ a << k);
+    let degree = p.ilog2() as usize;
+    let mut power = 1;
+    let mut rows = vec![];
+    for row in 0..size {
+        if row % degree == 0 {
+            power = times(power);
+        }
+        let mut rest = 1_u128 << (row % degree);
+        let mut digit = || {
+            rest <<= 1;
+            let one = rest >> power.ilog2() & 1;
+            rest ^= power * one;
+            one as u32
+        };
+        rows.push((0..size).map(|_| digit()).collect());
+    }
+    rows
+}
+
+/// J. Dick and H. Niederreiter, *On the exact t-value of Niederreiter and Sobol' sequences*, J. Complexity 24 (2008): t of a
+/// Niederreiter sequence is the sum of the degrees less 1 each, which some m reaches and none passes.
+#[test]
+fn niederreiter_has_the_sum_of_degrees() {
+    let polynomials = [0b10, 0b11, 0b111, 0b1011, 0b1101, 0b1_0011, 0b1_1001, 0b1_1111];
+    for (dims, exact) in (1..).zip([0, 0, 1, 3, 5, 8, 11, 14]) {
+        let matrices: Vec<_> = polynomials[..dims].iter().map(|&p| niederreiter(p, 16)).collect();
+        let most = (1..=16).map(|m| t_value_in_base(2, &matrices, m).expect("valid")).max().expect("some");
+        assert!(most <= exact && (dims > 6 || most == exact), "s = {dims}: {most}, not {exact}");
+    }
+}
+
 /// H. Faure (1982): powers of Pascal's matrix in a prime base of at least s have t = 0.
 #[test]
 fn faure_is_perfect_in_its_base() {

@@ -18,6 +18,7 @@ use std::time::Instant;
 
 use evenlight_render::accel::{Embree, RayKernel, TriangleSoup, Wide};
 use evenlight_render::geometry::{Frame, Ray, Vec3};
+use evenlight_render::scene::world::WAVE;
 use random::Random;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -69,6 +70,21 @@ struct Workload {
     occlusion: bool,
 }
 
+impl Workload {
+    /// How many of at most [`WAVE`] rays meet anything.
+    fn hits(&self, kernel: &dyn RayKernel, rays: &[Ray]) -> usize {
+        if self.occlusion {
+            let mut occluded = [false; WAVE];
+            kernel.occluded_each(rays, &mut occluded[..rays.len()]);
+            occluded.iter().filter(|occluded| **occluded).count()
+        } else {
+            let mut hits = [None; WAVE];
+            kernel.closest_each(rays, &mut hits[..rays.len()]);
+            hits.iter().flatten().count()
+        }
+    }
+}
+
 fn report(kernels: &[(&str, Box<dyn RayKernel>)], workloads: &[Workload]) {
     println!(
         "  {:10} {:>9}  Mrays/s per kernel; the first kernel relative to each of the others; hits",
@@ -80,11 +96,7 @@ fn report(kernels: &[(&str, Box<dyn RayKernel>)], workloads: &[Workload]) {
         for _ in 0..ROUNDS {
             for (i, (_, kernel)) in kernels.iter().enumerate() {
                 let start = thread_seconds();
-                hits[i] = if workload.occlusion {
-                    workload.rays.iter().filter(|ray| kernel.occluded(ray)).count()
-                } else {
-                    workload.rays.iter().filter(|ray| kernel.closest(ray).is_some()).count()
-                };
+                hits[i] = workload.rays.chunks(WAVE).map(|rays| workload.hits(kernel.as_ref(), rays)).sum();
                 best[i] = best[i].min(thread_seconds() - start);
             }
         }

@@ -2,6 +2,7 @@
 //!
 //! Directions point *away* from the surface; in a local [`Frame`] the shading normal is `(0, 0, 1)`.
 
+pub use evenlight_points::warp::sin_cos_turns;
 pub use glam::{Affine3A, Mat3A, Vec2};
 
 /// A point, a direction or a normal in world or local coordinates.
@@ -13,21 +14,6 @@ pub type Rgb = glam::Vec3A;
 /// Relative luminance of a linear color (ITU-R BT.709).
 pub fn luminance(color: Rgb) -> f32 {
     color.dot(Rgb::new(0.212671, 0.715160, 0.072169))
-}
-
-/// Sine and cosine of a number of turns in [0, 1), within 2 units in the last place of 1.
-///
-/// Taylor polynomials on an eighth of a turn to either side of the nearest quarter: a third of the time of the library's functions,
-/// which must reduce any angle.
-#[inline]
-pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
-    let quarter = (turns * 4.0 + 0.5) as i32;
-    let x = (turns - quarter as f32 * 0.25) * (2.0 * std::f32::consts::PI);
-    let x2 = x * x;
-    let sin = x + x * x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 - x2 * (1.0 / 5040.0 - x2 * (1.0 / 362_880.0))));
-    let cos = 1.0 - x2 * (0.5 - x2 * (1.0 / 24.0 - x2 * (1.0 / 720.0 - x2 * (1.0 / 40_320.0))));
-    let (sin, cos) = if quarter & 1 == 0 { (sin, cos) } else { (cos, -sin) };
-    if quarter & 2 == 0 { (sin, cos) } else { (-sin, -cos) }
 }
 
 /// An orthonormal frame; `n` is the local z axis.
@@ -108,20 +94,4 @@ pub struct Surface {
     pub dp_du: Vec3,
     /// Derivative of the position along v.
     pub dp_dv: Vec3,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn turns_have_the_right_sine_and_cosine() {
-        for i in 0..100_000 {
-            let turns = i as f32 / 100_000.0;
-            let (sin, cos) = sin_cos_turns(turns);
-            let (exact_sin, exact_cos) = (f64::from(turns) * 2.0 * std::f64::consts::PI).sin_cos();
-            let error = (f64::from(sin) - exact_sin).abs().max((f64::from(cos) - exact_cos).abs());
-            assert!(error < 2.4e-7, "{turns}: {error}");
-        }
-    }
 }

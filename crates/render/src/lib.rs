@@ -12,6 +12,7 @@ pub mod film;
 pub mod filter;
 pub mod geometry;
 pub mod integrator;
+mod memory;
 pub mod output;
 pub mod render;
 pub mod sampler;

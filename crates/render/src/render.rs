@@ -9,9 +9,10 @@ use evenlight_points::Seed;
 
 use crate::film::{Film, FilmSettings, PixelMean, Tile};
 use crate::geometry::{Rgb, Vec3};
-use crate::integrator::{self, Integrator, Mis, Transport};
+use crate::integrator::{self, CameraPath, Integrator, Measurement, Mis, Transport};
 use crate::sampler::{self, PathNumbers};
 use crate::scene::Scene;
+use crate::scene::world::WAVE;
 use crate::sensor::Sensor;
 use crate::{Error, Result};
 
@@ -79,9 +80,6 @@ impl std::fmt::Debug for Film {
         write!(f, "Film({}x{}, {} replicates)", self.width, self.height, self.replicates)
     }
 }
-
-/// Samples of a pixel between two looks at whether to stop.
-const STOP_INTERVAL: u32 = 256;
 
 /// Everything that a pixel needs, checked and built.
 struct Job<'a> {
@@ -211,54 +209,98 @@ impl<'a> Job<'a> {
 
     /// The means of a tile's pixels; `None` when told to stop.
     fn render_tile(&self, tile: &Tile, stop: &AtomicBool) -> Option<Vec<PixelMean>> {
+        let mut wave = Wave::new((tile.width * tile.height) as usize);
         let seed = self.seed.replicate(tile.replicate.into());
-        let mut means = Vec::with_capacity((tile.width * tile.height) as usize);
-        for y in tile.y..tile.y + tile.height {
-            for x in tile.x..tile.x + tile.width {
-                let (x, y) = (x + self.film.crop[0], y + self.film.crop[1]);
-                means.push(self.render_pixel(
-                    x,
-                    y,
-                    PathNumbers::new(self.sampler, seed.pixel(x, y)),
-                    stop,
-                )?);
+        for pixel in 0..wave.sums.len() {
+            let x = self.film.crop[0] + tile.x + pixel as u32 % tile.width;
+            let y = self.film.crop[1] + tile.y + pixel as u32 / tile.width;
+            let seed = seed.pixel(x, y);
+            for index in 0..self.samples {
+                let (path, weight) = self.camera_path([x, y], seed, index);
+                wave.paths.push(path);
+                wave.places.push((pixel, weight));
+                if wave.paths.len() == WAVE {
+                    if stop.load(Ordering::Relaxed) {
+                        return None;
+                    }
+                    wave.measure(self);
+                }
             }
         }
-        Some(means)
+        wave.measure(self);
+        Some(wave.sums.iter().map(|sum| sum.mean(self.samples)).collect())
     }
 
-    /// The mean of a pixel; `None` when told to stop.
-    fn render_pixel(&self, x: u32, y: u32, mut numbers: PathNumbers, stop: &AtomicBool) -> Option<PixelMean> {
+    /// The path of one sample of a pixel, and the weight of the sample.
+    #[inline]
+    fn camera_path(&self, [x, y]: [u32; 2], seed: Seed, index: u32) -> (CameraPath, f32) {
+        let mut numbers = PathNumbers::new(self.sampler, seed);
+        numbers.start(index);
+        let camera = numbers.camera();
+        let (dx, weight_x) = self.film.filter.sample(camera.film[0]);
+        let (dy, weight_y) = self.film.filter.sample(camera.film[1]);
         let [width, height] = self.film.size.map(|n| n as f32);
-        let mut sum = PixelMean::default();
-        let mut hits = 0.0_f32;
-        let mut color = [0.0_f64; 3];
-        for index in 0..self.samples {
-            if index.is_multiple_of(STOP_INTERVAL) && stop.load(Ordering::Relaxed) {
-                return None;
-            }
-            numbers.start(index);
-            let camera = numbers.camera();
-            let (dx, weight_x) = self.film.filter.sample(camera.film[0]);
-            let (dy, weight_y) = self.film.filter.sample(camera.film[1]);
-            let film = [(x as f32 + 0.5 + dx) / width, (y as f32 + 0.5 + dy) / height];
-            let ray = self.sensor.ray(film, camera.lens);
-            let measured = self.integrator.measure(self.scene, ray, &mut numbers);
-            let radiance = measured.radiance * (weight_x * weight_y);
-            for (sum, value) in color.iter_mut().zip(radiance.to_array()) {
-                *sum += f64::from(value);
-            }
-            sum.albedo += measured.albedo;
-            sum.normal += measured.normal;
-            sum.depth += measured.depth;
-            hits += f32::from(u8::from(measured.depth > 0.0));
+        let film = [(x as f32 + 0.5 + dx) / width, (y as f32 + 0.5 + dy) / height];
+        let ray = self.sensor.ray(film, camera.lens);
+        (CameraPath { ray, numbers, measurement: Measurement::default() }, weight_x * weight_y)
+    }
+}
+
+/// Samples of a tile that are measured together, whichever pixels they belong to.
+struct Wave {
+    paths: Vec<CameraPath>,
+    /// Pixel and weight of each path.
+    places: Vec<(usize, f32)>,
+    /// Of all pixels of the tile.
+    sums: Vec<PixelSum>,
+}
+
+impl Wave {
+    fn new(pixels: usize) -> Self {
+        Self {
+            paths: Vec::with_capacity(WAVE),
+            places: Vec::with_capacity(WAVE),
+            sums: vec![PixelSum::default(); pixels],
         }
-        let count = self.samples as f32;
-        Some(PixelMean {
-            radiance: Rgb::from_array(color.map(|sum| (sum / f64::from(self.samples)) as f32)),
-            albedo: sum.albedo / count,
-            normal: Vec3::normalize_or_zero(sum.normal),
-            depth: sum.depth / hits.max(1.0),
-        })
+    }
+
+    /// Measure what has come together, and begin anew.
+    fn measure(&mut self, job: &Job<'_>) {
+        job.integrator.measure(job.scene, &mut self.paths);
+        for (path, (pixel, weight)) in self.paths.iter().zip(&self.places) {
+            self.sums[*pixel].add(&path.measurement, *weight);
+        }
+        self.paths.clear();
+        self.places.clear();
+    }
+}
+
+/// What the samples of a pixel add up to, in the order of their indices.
+#[derive(Clone, Copy, Default)]
+struct PixelSum {
+    color: [f64; 3],
+    first: Measurement,
+    hits: f32,
+}
+
+impl PixelSum {
+    fn add(&mut self, measured: &Measurement, weight: f32) {
+        let radiance = measured.radiance * weight;
+        for (sum, value) in self.color.iter_mut().zip(radiance.to_array()) {
+            *sum += f64::from(value);
+        }
+        self.first.albedo += measured.albedo;
+        self.first.normal += measured.normal;
+        self.first.depth += measured.depth;
+        self.hits += f32::from(u8::from(measured.depth > 0.0));
+    }
+
+    fn mean(&self, samples: u32) -> PixelMean {
+        PixelMean {
+            radiance: Rgb::from_array(self.color.map(|sum| (sum / f64::from(samples)) as f32)),
+            albedo: self.first.albedo / samples as f32,
+            normal: Vec3::normalize_or_zero(self.first.normal),
+            depth: self.first.depth / self.hits.max(1.0),
+        }
     }
 }

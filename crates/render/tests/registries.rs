@@ -22,7 +22,11 @@ fn families() -> Vec<Family> {
     vec![
         ("points/src/sequences", names!(sequences::ALL), &[]),
         ("points/src/scramble", names!(scramble::ALL), &["matrix"]),
-        ("points/src/warp", names!(warp::ALL), &["curve", "options", "real", "rows", "triangle"]),
+        (
+            "points/src/warp",
+            names!(warp::ALL),
+            &["curve", "options", "real", "round", "rows", "steps", "triangle"],
+        ),
         (
             "render/src/bsdf",
             names!(bsdf::ALL),

@@ -11,14 +11,11 @@ from scipy import special, stats
 
 from evenlight.importance import Density, Normal
 from evenlight.importance.mixture import Mixture
-from evenlight.integrands import build
+from evenlight.integrands.singular_point import mean_of_power
 
 __all__ = ["MixtureProblem", "rare_event", "singularity"]
 
 Array = NDArray[np.float64]
-
-
-_LONGEST = 12.0**0.2
 
 
 @dataclass(frozen=True)
@@ -39,16 +36,29 @@ class MixtureProblem:
     """How many uniform numbers `locate` takes."""
 
 
-def singularity() -> MixtureProblem:
-    """|x - 1|^-2.4 for x normal with covariances 2^-|i - j| in 5 dimensions; narrow normals at 1, distractors at -1.
+def singularity(gamma: float = 2.4, shrink: float = 2.0) -> MixtureProblem:
+    """|x - 1|^-gamma for x normal with covariances 2^-|i - j| in 5 dimensions; narrow normals at 1, distractors at -1.
 
     The problem of H. Y. He and A. B. Owen, arXiv:1411.3954 (2014). The second moment is integrated in polar
-    coordinates around the singularity, with the radius r = s^5, after which nothing is unbounded.
+    coordinates around the singularity, with the radius r = s^(1 / (5 - 2 gamma)), after which nothing is unbounded.
+
+    Parameters
+    ----------
+    gamma : float
+        Below 5/2, from where on the variance is infinite. The nearer, the more of the second moment lies next to the
+        singularity, where the variance of plain sampling over that of a mixture is the ratio of their densities.
+    shrink : float
+        The proposals have the covariances shrink^-r, for r from 1 to 5.
 
     Returns
     -------
     MixtureProblem
-        Of mean 0.173866966666, with 11 proposals.
+        By default of mean 0.173866966666, with 11 proposals.
+
+    Raises
+    ------
+    ValueError
+        If gamma is not between 0 and 5/2.
 
     Examples
     --------
@@ -56,10 +66,14 @@ def singularity() -> MixtureProblem:
     >>> round(singularity().exact, 12)
     0.173866966666
     """
+    if not 0 < gamma < 2.5:
+        raise ValueError(f"gamma must be between 0 and 5/2, not {gamma}: the variance would be infinite")
     one = np.ones(5)
     target = Normal(np.zeros(5), 2.0 ** -np.abs(np.subtract.outer(np.arange(5), np.arange(5))))
-    narrow = [Normal(one, 2.0**-r) for r in range(1, 6)]
-    distractors = [Normal(-one, 2.0**-r) for r in range(1, 6)]
+    narrow = [Normal(one, shrink**-r) for r in range(1, 6)]
+    distractors = [Normal(-one, shrink**-r) for r in range(1, 6)]
+    power = 5 - 2 * gamma
+    longest, least = 12.0**power, 3e-9**power
     proposals = (*narrow, *distractors, target)
     mixture, even = Mixture(target, proposals), np.full(11, 1 / 11)
 
@@ -68,29 +82,28 @@ def singularity() -> MixtureProblem:
         polar = u[:, 0] < 0.5
         chooser = np.where(polar, 2 * u[:, 0], 2 * u[:, 0] - 1)
         x = np.empty((len(u), 5))
-        # nearer than s = 0.02, x - 1 has no digits left, and the integrand is constant in s
-        s = np.maximum(_LONGEST * chooser[polar], 0.02)
+        # nearer than 3e-9, x - 1 has no digits left, and the integrand is constant in s
+        s = np.maximum(longest * chooser[polar], least)
         direction = special.ndtri(np.clip(u[polar, 1:], 2.0**-65, None))
-        x[polar] = one + direction * (s**5 / np.linalg.norm(direction, axis=1))[:, np.newaxis]
+        x[polar] = one + direction * (s ** (1 / power) / np.linalg.norm(direction, axis=1))[:, np.newaxis]
         x[~polar] = mixture.draw(even, np.column_stack([chooser, u[:, 1:]])[~polar]).x
         density = np.mean([np.exp(proposal.logpdf(x)) for proposal in proposals], axis=0)
-        return x, 2.0 / (density + _polar_density(np.linalg.norm(x - one, axis=1)))
+        return x, 2.0 / (density + _polar_density(np.linalg.norm(x - one, axis=1), power))
 
     return MixtureProblem(
-        f=lambda x: np.asarray(((x - 1) ** 2).sum(axis=1) ** -1.2),
+        f=lambda x: np.asarray(((x - 1) ** 2).sum(axis=1) ** (-gamma / 2)),
         target=target,
         proposals=proposals,
-        exact=build("singular_point", 5).exact,
+        exact=mean_of_power(target.covariance, one, gamma),
         locate=locate,
         uniforms=6,
     )
 
 
-def _polar_density(radius: Array) -> Array:
-    """Of points at a distance r = s^5 with s uniform up to 12^(1/5), in a uniform direction: r^4 dr = 5 s^24 ds."""
-    s = np.maximum(radius**0.2, 0.02)
-    area = 8 * np.pi**2 / 3
-    return np.where(s < _LONGEST, 1 / (area * 5 * _LONGEST * s**24), 0.0)
+def _polar_density(radius: Array, power: float) -> Array:
+    """Of points at a distance r below 12, r^power uniform, in a uniform direction, of area 8 pi² / 3 r^4."""
+    r = np.maximum(radius, 3e-9)
+    return np.where(r < 12.0, power / 12.0**power * r ** (power - 5) / (8 * np.pi**2 / 3), 0.0)
 
 
 def rare_event() -> MixtureProblem:

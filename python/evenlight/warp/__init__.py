@@ -22,14 +22,36 @@ from .curves import (
     hilbert_inverse,
     hilbert_sort,
 )
+from .directions import Cap, HemisphereCosine, HemisphereUniform, Sphere, SphericalRectangle, SphericalTriangle
+from .distributions import Discrete, DiscreteAlias, Frozen, Gaussian, Image, PiecewiseConstant, PiecewiseLinear
+from .solids import Ball, Cylinder, DiskConcentric, DiskPolar, Simplex, Torus
 from .triangle import triangle_kronecker, triangle_product, triangle_van_der_corput
 from .triangle_maps import TriangleBase4, TriangleHeitz, TriangleMirror, TriangleRoot, TriangleSort
 
 __all__ = [
     "WARPS",
+    "Ball",
+    "Cap",
+    "Cylinder",
+    "Discrete",
+    "DiscreteAlias",
+    "DiskConcentric",
+    "DiskPolar",
+    "Frozen",
+    "Gaussian",
     "Gray",
+    "HemisphereCosine",
+    "HemisphereUniform",
     "Hilbert",
+    "Image",
     "Morton",
+    "PiecewiseConstant",
+    "PiecewiseLinear",
+    "Simplex",
+    "Sphere",
+    "SphericalRectangle",
+    "SphericalTriangle",
+    "Torus",
     "TriangleBase4",
     "TriangleHeitz",
     "TriangleMirror",
@@ -53,7 +75,34 @@ __all__ = [
 
 WARPS: dict[str, type[Warp]] = {
     warp.warp: warp
-    for warp in (TriangleRoot, TriangleHeitz, TriangleMirror, TriangleSort, TriangleBase4, Hilbert, Morton, Gray)
+    for warp in (
+        TriangleRoot,
+        TriangleHeitz,
+        TriangleMirror,
+        TriangleSort,
+        TriangleBase4,
+        Hilbert,
+        Morton,
+        Gray,
+        DiskPolar,
+        DiskConcentric,
+        HemisphereUniform,
+        HemisphereCosine,
+        Sphere,
+        Cap,
+        Ball,
+        Simplex,
+        Cylinder,
+        Torus,
+        SphericalTriangle,
+        SphericalRectangle,
+        Gaussian,
+        PiecewiseLinear,
+        PiecewiseConstant,
+        Discrete,
+        DiscreteAlias,
+        Image,
+    )
 }
 """The classes by their names in the registry."""
 

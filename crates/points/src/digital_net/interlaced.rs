@@ -8,7 +8,7 @@
 //! An affine randomization of the coordinates is one of the interlaced matrices, so that these points cost what those of
 //! any net cost. For the others the coordinates are scrambled block by block, 32 digits of each, and then interlaced.
 //!
-//! Of each coordinate α gets ⌊64 / α⌋ digits, at most 32: 32, 21, 16 or 12. A double shows 53 digits of their union.
+//! Each of the α coordinates gives ⌊64 / α⌋ digits, at most 32: 32, 21, 16 or 12. A double shows the first 53 of them all.
 
 use std::ops::Range;
 use std::sync::Arc;

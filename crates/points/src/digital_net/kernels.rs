@@ -257,6 +257,29 @@ mod tests {
         WIDEST.store(64, Ordering::Relaxed);
     }
 
+    /// Digits in turn, one at a time, against the kernels of this machine.
+    #[test]
+    fn instruction_sets_agree_on_interlaced_digits() {
+        let words: Vec<_> = (0..1030).map(|i| mix(i) as u32).collect();
+        for order in 2..=5 {
+            let taken = |words: &[u32]| {
+                (0..60)
+                    .fold(0, |all, i| all | u64::from(words[i % order] >> (31 - i / order) & 1) << (63 - i))
+            };
+            let wanted: Vec<_> = words.chunks_exact(order).map(taken).map(f64::from_word).collect();
+            for widest in [64, 32, 0] {
+                WIDEST.store(widest, Ordering::Relaxed);
+                let (mut double, mut single) = (vec![0.0; wanted.len()], vec![0.0_f32; wanted.len()]);
+                interlaced(&words, order, &mut double);
+                interlaced(&words, order, &mut single);
+                assert_eq!(double, wanted, "order {order}");
+                let singles = wanted.iter().map(|&x| crate::convert::truncate_to_f32(x));
+                assert!(singles.eq(single), "order {order}");
+            }
+        }
+        WIDEST.store(64, Ordering::Relaxed);
+    }
+
     /// A stream that is fed in pieces of all lengths.
     #[test]
     fn a_stream_may_be_fed_in_pieces() {

@@ -34,7 +34,7 @@ pub fn t_value<M: AsRef<[u64]>>(matrices: &[M], m: u32) -> Result<u32, Error> {
         let row = |r: u32| columns.iter().enumerate().map(|(k, column)| (column >> (63 - r) & 1) << k).sum();
         (0..m).map(row).collect()
     };
-    Ok(search(matrices.iter().map(rows).collect(), size, &mut Bits { pivots: [0; 64] }))
+    Ok(search(&matrices.iter().map(rows).collect::<Vec<_>>(), size, &mut Bits { pivots: [0; 64] }))
 }
 
 /// The quality parameter of the first b^m points of a net in a prime base b, from its generating matrices: digit r of
@@ -61,7 +61,11 @@ pub fn t_value_in_base(base: u32, matrices: &[Vec<Vec<u32>>], m: u32) -> Result<
     check_sizes(size, matrices.iter().map(shortest))?;
     let row = |row: &Vec<u32>| row[..size].iter().map(|digit| digit % base).collect::<Vec<_>>();
     let rows = |matrix: &Vec<Vec<u32>>| matrix[..size].iter().map(row).collect();
-    Ok(search(matrices.iter().map(rows).collect(), size, &mut Digits { base, pivots: vec![None; size] }))
+    Ok(search(
+        &matrices.iter().map(rows).collect::<Vec<_>>(),
+        size,
+        &mut Digits { base, pivots: vec![None; size] },
+    ))
 }
 
 /// Refuses matrices that do not have all m rows and columns.
@@ -162,12 +166,9 @@ fn inverse(digit: u32, base: u32) -> u32 {
 }
 
 /// t, given the first m rows of each matrix.
-fn search<E: Echelon>(mut matrices: Vec<Vec<E::Row>>, m: usize, echelon: &mut E) -> u32 {
+fn search<E: Echelon>(matrices: &[Vec<E::Row>], m: usize, echelon: &mut E) -> u32 {
     // Any m + 1 rows of m digits are dependent.
-    let least = m + 1;
-    matrices.sort_by_cached_key(|rows| dependent(std::slice::from_ref(rows), 0, least, echelon));
-    let least = dependent(&matrices, 0, least, echelon);
-    (m + 1 - least) as u32
+    (m + 1 - dependent(matrices, 0, m + 1, echelon)) as u32
 }
 
 /// The least number of rows that are dependent with the `taken` ones that the echelon form has, if less than `least`,

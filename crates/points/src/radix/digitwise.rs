@@ -4,9 +4,8 @@
 //! whole block of rows. A shift modulo 1 is one more addend.
 
 use super::permutations::permutation;
-use super::places::{Places, TABULATED, product_high};
+use super::places::{LINE, Places, TABULATED, line, product_high, unit};
 use crate::Seed;
-use crate::convert::unit_f64;
 use crate::instruction_sets::for_this_machine;
 use crate::scramble::Randomization;
 use crate::shuffle::{Keys, Shuffle, keys};
@@ -104,5 +103,8 @@ for_this_machine! {
 
 #[inline(always)]
 fn finish_body(addend: u64, words: &[u64], out: &mut [f64]) {
-    out.iter_mut().zip(words).for_each(|(x, word)| *x = unit_f64(word.wrapping_add(addend)));
+    for (out, words) in out.chunks_mut(LINE).zip(words.chunks(LINE)) {
+        let units = line(words).map(|word| unit(word.wrapping_add(addend)));
+        out.copy_from_slice(&units[..out.len()]);
+    }
 }

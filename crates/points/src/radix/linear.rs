@@ -4,11 +4,9 @@
 //! and high digits contribute a sum without carry: the sum of two fractions, from which a digit that became too
 //! large takes the base again. So a coordinate costs a comparison for each high digit.
 
-use super::LANES;
-use super::places::{Places, product_high};
+use super::places::{LINE, Places, line, product_high, unit};
 use super::prefixes::Prefixes;
 use crate::Seed;
-use crate::convert::unit_f64;
 use crate::instruction_sets::for_this_machine;
 use crate::scramble::Randomization;
 
@@ -128,20 +126,21 @@ for_this_machine! {
 
 #[inline(always)]
 fn finish_body(addend: &Addend, cell: u64, images: &Prefixes, first: usize, out: &mut [f64]) {
-    debug_assert!(out.len() <= LANES);
-    let mut fractions = [0; LANES];
-    let fractions = &mut fractions[..out.len()];
-    for (fraction, from) in fractions.iter_mut().zip(&images.fractions[first..]) {
-        *fraction = from.wrapping_add(addend.fraction);
-    }
-    for carry in &addend.carries {
-        let digits = &images.digits[carry.place * images.words.len()..][first..];
-        for (fraction, &digit) in fractions.iter_mut().zip(digits) {
-            let excess = if digit >= carry.least { carry.excess } else { 0 };
-            *fraction = fraction.wrapping_sub(excess);
+    let lines = images.words[first..].chunks(LINE).zip(images.fractions[first..].chunks(LINE));
+    for (i, (out, (words, fractions))) in out.chunks_mut(LINE).zip(lines).enumerate() {
+        let mut sums = line(fractions).map(|fraction| fraction.wrapping_add(addend.fraction));
+        for carry in &addend.carries {
+            let digits = line(&images.digits[carry.place * images.words.len() + first + i * LINE..]);
+            for (sum, digit) in sums.iter_mut().zip(digits) {
+                // all ones or zero, and no branch
+                let mask = 0_u64.wrapping_sub(u64::from(digit >= carry.least));
+                *sum = sum.wrapping_sub(mask & carry.excess);
+            }
         }
-    }
-    for ((x, word), fraction) in out.iter_mut().zip(&images.words[first..]).zip(fractions) {
-        *x = unit_f64(word + product_high(*fraction, cell));
+        let mut units = [0.0; LINE];
+        for ((x, word), sum) in units.iter_mut().zip(line(words)).zip(sums) {
+            *x = unit(word + product_high(sum, cell));
+        }
+        out.copy_from_slice(&units[..out.len()]);
     }
 }

@@ -11,11 +11,9 @@
 //! depend on pairs only (J. Matousek, *On the L2-discrepancy for anchored boxes*, 1998). In other bases that fails,
 //! and σ is uniform too.
 
-use super::LANES;
-use super::permutations::images;
-use super::places::{Places, product_high};
+use super::permutations::images as permuted;
+use super::places::{LINE, Places, line, product, product_high, unit};
 use crate::Seed;
-use crate::convert::unit_f64;
 use crate::instruction_sets::for_this_machine;
 use crate::primes::is_prime;
 use crate::scramble::Randomization;
@@ -79,9 +77,9 @@ impl Nested {
     fn step(&self, places: &Places, place: usize, digit: u64) -> impl Fn(Node) -> Node + use<> {
         let digit = self.digit(places, place, digit);
         move |Node { cell, fraction }| {
-            let mut lanes = ([0], [fraction]);
-            digit.descend(&mut lanes.0, &mut lanes.1);
-            Node { cell: cell * digit.base + lanes.0[0], fraction: lanes.1[0] }
+            let mut fractions = [fraction];
+            let [image] = digit.descend(&mut fractions);
+            Node { cell: cell * digit.base + image, fraction: fractions[0] }
         }
     }
 
@@ -105,50 +103,36 @@ impl Nested {
 }
 
 impl Digit {
-    /// Replaces the fractions of nodes by those of the next, and writes the images of the digit.
+    /// Replaces the fractions of nodes by those of the next, and gives the images of the digit.
     #[inline(always)]
-    fn descend(&self, images: &mut [u64], fractions: &mut [u64]) {
-        for (image, fraction) in images.iter_mut().zip(&*fractions) {
-            *image = scaled(*fraction, self.base).0;
-        }
+    fn descend<const N: usize>(&self, fractions: &mut [u64; N]) -> [u64; N] {
+        let scaled = fractions.map(|fraction| scaled(fraction, self.base));
+        let mut images = scaled.map(|(zero, _)| zero);
         if self.value == 0 {
-            for fraction in fractions {
-                *fraction = scaled(*fraction, self.base).1;
-            }
-            return;
+            *fractions = scaled.map(|(_, rest)| rest);
+            return images;
         }
+        let mut turns = fractions.map(|fraction| mix(fraction ^ self.keys[0]));
         if self.affine {
-            for (image, fraction) in images.iter_mut().zip(&*fractions) {
-                let factor = 1 + (((mix(fraction ^ self.keys[0]) >> 32) * (self.base - 1)) >> 32);
-                *image = self.reduced(*image + factor * self.value);
+            for (image, turn) in images.iter_mut().zip(turns) {
+                let factor = 1 + (product(turn >> 32, self.base - 1) >> 32);
+                *image = self.reduced(*image + product(factor, self.value));
             }
         } else {
-            self.turn(images, fractions);
-        }
-        for fraction in fractions {
-            *fraction = mix(*fraction ^ self.keys[1]);
-        }
-    }
-
-    /// Adds the image of the digit under a uniform permutation of the digits other than 0.
-    #[inline(always)]
-    fn turn(&self, images_of_zero: &mut [u64], fractions: &[u64]) {
-        for (zeros, fractions) in images_of_zero.chunks_mut(LANES).zip(fractions.chunks(LANES)) {
-            let mut turned = [0; LANES];
-            let turned = &mut turned[..zeros.len()];
-            turned.iter_mut().zip(fractions).for_each(|(key, fraction)| *key = mix(fraction ^ self.keys[0]));
-            images(self.value - 1, self.base - 1, turned);
-            for (image, other) in zeros.iter_mut().zip(turned) {
-                *image = self.reduced(*image + *other + 1);
+            permuted(self.value - 1, self.base - 1, &mut turns);
+            for (image, turned) in images.iter_mut().zip(turns) {
+                *image = self.reduced(*image + turned + 1);
             }
         }
+        *fractions = fractions.map(|fraction| mix(fraction ^ self.keys[1]));
+        images
     }
 
     /// A number below 2^32, modulo the base.
     #[inline(always)]
     fn reduced(&self, number: u64) -> u64 {
         // The quotient comes out right or one too small.
-        let remainder = number - ((number * self.reciprocal) >> 32) * self.base;
+        let remainder = number - product(product(number, self.reciprocal) >> 32, self.base);
         remainder.min(remainder.wrapping_sub(self.base))
     }
 }
@@ -156,7 +140,7 @@ impl Digit {
 /// The first digit of a fraction, and the rest of it.
 #[inline(always)]
 fn scaled(fraction: u64, base: u64) -> (u64, u64) {
-    let (upper, lower) = ((fraction >> 32) * base, (fraction & 0xffff_ffff) * base);
+    let (upper, lower) = (product(fraction >> 32, base), product(fraction, base));
     let sum = upper + (lower >> 32);
     (sum >> 32, sum << 32 | lower & 0xffff_ffff)
 }
@@ -168,21 +152,27 @@ for_this_machine! {
 
 #[inline(always)]
 fn finish_body(digits: &[Digit], cell: u64, words: &[u64], fractions: &[u64], out: &mut [f64]) {
-    debug_assert!(out.len() <= LANES);
-    let (mut rests, mut sums, mut images) = ([0; LANES], [0; LANES], [0; LANES]);
-    let (rests, sums) = (&mut rests[..out.len()], &mut sums[..out.len()]);
-    rests.copy_from_slice(&fractions[..out.len()]);
-    for digit in digits {
-        digit.descend(&mut images, rests);
-        sums.iter_mut().zip(&images).for_each(|(sum, image)| *sum += image * digit.worth);
-    }
-    match digits.last() {
-        None => sums.copy_from_slice(rests),
-        Some(last) => {
-            sums.iter_mut().zip(&*rests).for_each(|(sum, rest)| *sum += product_high(*rest, last.worth));
+    let lines = words.chunks(LINE).zip(fractions.chunks(LINE));
+    for (out, (words, fractions)) in out.chunks_mut(LINE).zip(lines) {
+        let (mut rests, mut sums) = (line(fractions), [0; LINE]);
+        for digit in digits {
+            let images = digit.descend(&mut rests);
+            for (sum, image) in sums.iter_mut().zip(images) {
+                *sum += product(image, digit.worth) + (product(image, digit.worth >> 32) << 32);
+            }
         }
-    }
-    for ((x, word), sum) in out.iter_mut().zip(words).zip(sums) {
-        *x = unit_f64(word + product_high(*sum, cell));
+        match digits.last() {
+            None => sums = rests,
+            Some(last) => {
+                for (sum, rest) in sums.iter_mut().zip(rests) {
+                    *sum += product_high(rest, last.worth);
+                }
+            }
+        }
+        let mut units = [0.0; LINE];
+        for ((x, word), sum) in units.iter_mut().zip(line(words)).zip(sums) {
+            *x = unit(word + product_high(sum, cell));
+        }
+        out.copy_from_slice(&units[..out.len()]);
     }
 }

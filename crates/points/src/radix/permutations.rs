@@ -69,7 +69,7 @@ for_this_machine! {
 }
 
 /// Keys that are followed together.
-const LANES: usize = 16;
+const LANES: usize = 8;
 
 #[inline(always)]
 fn images_body(number: u64, count: u64, keys: &mut [u64]) {

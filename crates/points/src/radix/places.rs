@@ -88,11 +88,39 @@ impl Places {
     }
 }
 
+/// Coordinates that are made together, in registers.
+pub(super) const LINE: usize = 8;
+
+/// The first numbers of a slice, and zeros after its end.
+#[inline(always)]
+pub(super) fn line<T: Copy + Default>(numbers: &[T]) -> [T; LINE] {
+    numbers.first_chunk().copied().unwrap_or_else(|| {
+        let mut line = [T::default(); LINE];
+        line[..numbers.len()].copy_from_slice(numbers);
+        line
+    })
+}
+
+/// The product of two numbers below 2^32, which one instruction multiplies in vectors if it is told so.
+#[inline(always)]
+pub(super) fn product(x: u64, y: u64) -> u64 {
+    (x & 0xffff_ffff) * (y & 0xffff_ffff)
+}
+
 /// The upper 64 bits of a product, at most 2 too small, of halves as vectors multiply them.
 #[inline(always)]
 pub(super) fn product_high(x: u64, y: u64) -> u64 {
-    let (x1, x0, y1, y0) = (x >> 32, x & 0xffff_ffff, y >> 32, y & 0xffff_ffff);
-    x1 * y1 + ((x1 * y0) >> 32) + ((x0 * y1) >> 32)
+    let (x1, y1) = (x >> 32, y >> 32);
+    product(x1, y1) + (product(x1, y) >> 32) + (product(x, y1) >> 32)
+}
+
+/// [`unit_f64`](crate::convert::unit_f64) in additions of exact numbers, which all vectors have: the upper half of the word after
+/// 2^20, the next 21 bits after 1/2.
+#[inline(always)]
+pub(super) fn unit(word: u64) -> f64 {
+    let upper = f64::from_bits(word >> 32 | (1023 + 20) << 52);
+    let lower = f64::from_bits((word & 0xffff_ffff) >> 11 | (1023 - 1) << 52);
+    (upper - (f64::from(1 << 20) + 0.5)) + lower
 }
 
 #[cfg(test)]
@@ -110,6 +138,13 @@ mod tests {
                 let exact = (u128::from(cell) << 64) / u128::from(places.rows);
                 assert_eq!(u128::from(places.edge(cell)), exact, "{base}, {cell}");
             }
+        }
+    }
+
+    #[test]
+    fn units_are_those_of_the_house() {
+        for word in (0..10_000).map(mix).chain([0, 1, u64::MAX, 1 << 63, 1 << 11, (1 << 32) - 1, 1 << 32]) {
+            assert_eq!(unit(word).to_bits(), crate::convert::unit_f64(word).to_bits(), "{word}");
         }
     }
 

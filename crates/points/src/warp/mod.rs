@@ -6,13 +6,33 @@
 //!
 //! To add one, write its file with an `ENTRY`, declare it here, put it in [`ALL`], and give `tests/warps` its domain.
 
+pub mod ball;
+pub mod cap;
 pub mod curve;
+pub mod cylinder;
+pub mod discrete;
+pub mod discrete_alias;
+pub mod disk_concentric;
+pub mod disk_polar;
+pub mod gaussian;
 mod gray;
+pub mod hemisphere_cosine;
+pub mod hemisphere_uniform;
 mod hilbert;
+pub mod image;
 mod morton;
 mod options;
+pub mod piecewise_constant;
+pub mod piecewise_linear;
 mod real;
+mod round;
 pub mod rows;
+mod simplex;
+pub mod sphere;
+pub mod spherical_rectangle;
+pub mod spherical_triangle;
+mod steps;
+pub mod torus;
 pub mod triangle;
 pub mod triangle_base4;
 pub mod triangle_heitz;
@@ -65,6 +85,24 @@ pub static ALL: &[&Entry] = &[
     &hilbert::ENTRY,
     &morton::ENTRY,
     &gray::ENTRY,
+    &disk_polar::ENTRY,
+    &disk_concentric::ENTRY,
+    &hemisphere_uniform::ENTRY,
+    &hemisphere_cosine::ENTRY,
+    &sphere::ENTRY,
+    &cap::ENTRY,
+    &ball::ENTRY,
+    &simplex::ENTRY,
+    &cylinder::ENTRY,
+    &torus::ENTRY,
+    &spherical_triangle::ENTRY,
+    &spherical_rectangle::ENTRY,
+    &gaussian::ENTRY,
+    &piecewise_linear::ENTRY,
+    &piecewise_constant::ENTRY,
+    &discrete::ENTRY,
+    &discrete_alias::ENTRY,
+    &image::ENTRY,
 ];
 
 /// Builds a warp from plain values.

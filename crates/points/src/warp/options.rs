@@ -114,3 +114,39 @@ pub(crate) fn curve_dims(warp: &'static str, dims: Option<usize>) -> Result<usiz
 pub(crate) fn missing(warp: &'static str, option: &'static str, allowed: &'static str) -> Error {
     Error::Option { warp, option, asked: "nothing".into(), allowed }
 }
+
+/// A number that must be positive and finite.
+pub(crate) fn positive(warp: &'static str, option: &'static str, value: f64) -> Result<f64, Error> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(refused(warp, option, value, "positive and finite"))
+}
+
+/// Weights that must be finite and not negative, with a positive sum.
+pub(crate) fn weights<'a>(warp: &'static str, values: Option<&'a [f64]>) -> Result<&'a [f64], Error> {
+    const ALLOWED: &str = "finite numbers from 0 on with a positive sum";
+    let values = values.ok_or_else(|| missing(warp, "values", ALLOWED))?;
+    if let Some((place, value)) = values.iter().enumerate().find(|(_, value)| value.is_nan() || **value < 0.0)
+    {
+        return Err(refused(warp, "values", format_args!("{value} at {place}"), ALLOWED));
+    }
+    let sum = values.iter().sum::<f64>();
+    if sum > 0.0 && sum.is_finite() {
+        return Ok(values);
+    }
+    Err(refused(warp, "values", format_args!("{} with sum {sum}", values.len()), ALLOWED))
+}
+
+/// Knots that must ascend.
+pub(crate) fn ascending(warp: &'static str, knots: Option<&[f64]>, count: usize) -> Result<Vec<f64>, Error> {
+    const ALLOWED: &str = "ascending finite numbers, as many as the values need";
+    let Some(knots) = knots else {
+        return Ok((0..count).map(|k| k as f64 / (count - 1) as f64).collect());
+    };
+    let ascends = knots.windows(2).all(|pair| pair[0] < pair[1]) && knots.iter().all(|x| x.is_finite());
+    if knots.len() == count && ascends {
+        return Ok(knots.to_vec());
+    }
+    Err(refused(warp, "knots", format_args!("{} for {count}", knots.len()), ALLOWED))
+}

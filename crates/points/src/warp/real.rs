@@ -40,6 +40,18 @@ pub trait Real:
     #[must_use]
     fn turns(y: Self, x: Self) -> Self;
 
+    /// The next smaller number.
+    #[must_use]
+    fn next_down(self) -> Self;
+
+    /// A number in this precision that stays below a limit when rounding would reach it.
+    #[must_use]
+    #[inline]
+    fn under(x: f64, limit: f64) -> Self {
+        let (x, limit) = (Self::of(x), Self::of(limit));
+        if x < limit { x } else { limit.next_down() }
+    }
+
     /// The larger of two numbers.
     #[must_use]
     #[inline]
@@ -83,6 +95,10 @@ macro_rules! real {
             #[inline(always)]
             fn cbrt(self) -> Self {
                 self.cbrt()
+            }
+            #[inline(always)]
+            fn next_down(self) -> Self {
+                self.next_down()
             }
             #[inline(always)]
             fn sin_cos_turns(self) -> (Self, Self) {

@@ -217,30 +217,34 @@ impl RayKernel for Embree {
         "embree"
     }
 
-    fn closest(&self, ray: &Ray) -> Option<TriangleHit> {
-        let mut query = EmbreeRayHit {
-            ray: EmbreeRay::new(ray),
-            normal: [0.0; 3],
-            u: 0.0,
-            v: 0.0,
-            primitive: NOTHING,
-            geometry: NOTHING,
-            instance: [NOTHING; 5],
-        };
-        // SAFETY: the scene is committed; `query` has the layout of RTCRayHit.
-        unsafe { (self.functions.intersect)(self.scene, &raw mut query, ptr::null()) };
-        (query.geometry != NOTHING).then_some(TriangleHit {
-            t: query.ray.t_far,
-            u: query.u,
-            v: query.v,
-            triangle: query.primitive,
-        })
+    fn closest_each(&self, rays: &[Ray], hits: &mut [Option<TriangleHit>]) {
+        for (hit, ray) in hits.iter_mut().zip(rays) {
+            let mut query = EmbreeRayHit {
+                ray: EmbreeRay::new(ray),
+                normal: [0.0; 3],
+                u: 0.0,
+                v: 0.0,
+                primitive: NOTHING,
+                geometry: NOTHING,
+                instance: [NOTHING; 5],
+            };
+            // SAFETY: the scene is committed; `query` has the layout of RTCRayHit.
+            unsafe { (self.functions.intersect)(self.scene, &raw mut query, ptr::null()) };
+            *hit = (query.geometry != NOTHING).then_some(TriangleHit {
+                t: query.ray.t_far,
+                u: query.u,
+                v: query.v,
+                triangle: query.primitive,
+            });
+        }
     }
 
-    fn occluded(&self, ray: &Ray) -> bool {
-        let mut query = EmbreeRay::new(ray);
-        // SAFETY: the scene is committed; `query` has the layout of RTCRay.
-        unsafe { (self.functions.occluded)(self.scene, &raw mut query, ptr::null()) };
-        query.t_far == f32::NEG_INFINITY
+    fn occluded_each(&self, rays: &[Ray], occluded: &mut [bool]) {
+        for (occluded, ray) in occluded.iter_mut().zip(rays) {
+            let mut query = EmbreeRay::new(ray);
+            // SAFETY: the scene is committed; `query` has the layout of RTCRay.
+            unsafe { (self.functions.occluded)(self.scene, &raw mut query, ptr::null()) };
+            *occluded = query.t_far == f32::NEG_INFINITY;
+        }
     }
 }

@@ -51,11 +51,25 @@ pub trait RayKernel: Send + Sync {
     /// The kernel's name in settings and metadata.
     fn name(&self) -> &'static str;
 
-    /// The first triangle with `0 < t < ray.t_max`, if any.
-    fn closest(&self, ray: &Ray) -> Option<TriangleHit>;
+    /// For each ray the first triangle with `0 < t < ray.t_max`, if any; `hits` has as many places as there are rays.
+    fn closest_each(&self, rays: &[Ray], hits: &mut [Option<TriangleHit>]);
 
-    /// Whether any triangle lies at `0 < t < ray.t_max`.
-    fn occluded(&self, ray: &Ray) -> bool;
+    /// For each ray whether any triangle lies at `0 < t < ray.t_max`; `occluded` has as many places as there are rays.
+    fn occluded_each(&self, rays: &[Ray], occluded: &mut [bool]);
+
+    /// [`RayKernel::closest_each`] for one ray. Many together are faster.
+    fn closest(&self, ray: &Ray) -> Option<TriangleHit> {
+        let mut hit = [None];
+        self.closest_each(std::slice::from_ref(ray), &mut hit);
+        hit[0]
+    }
+
+    /// [`RayKernel::occluded_each`] for one ray. Many together are faster.
+    fn occluded(&self, ray: &Ray) -> bool {
+        let mut occluded = [false];
+        self.occluded_each(std::slice::from_ref(ray), &mut occluded);
+        occluded[0]
+    }
 }
 
 /// The kernels by name.

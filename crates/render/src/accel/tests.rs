@@ -311,6 +311,24 @@ fn degenerate_input_is_harmless() {
 }
 
 #[test]
+fn rays_together_find_what_each_finds_alone() {
+    let mut random = Random(9);
+    let mesh = Mesh::random_soup(&mut random, 2000, 0.1, 1.0);
+    for kernel in kernels(&mesh.soup()) {
+        for count in [0, 1, 7, 8, 9, 100] {
+            let rays: Vec<_> = (0..count).map(|_| ray(random.point(), random.direction())).collect();
+            let (mut hits, mut occluded) = (vec![None; count], vec![true; count]);
+            kernel.closest_each(&rays, &mut hits);
+            kernel.occluded_each(&rays, &mut occluded);
+            for ((ray, hit), occluded) in rays.iter().zip(hits).zip(occluded) {
+                assert_eq!(kernel.closest(ray), hit, "{}", kernel.name());
+                assert_eq!(hit.is_some(), occluded, "{}", kernel.name());
+            }
+        }
+    }
+}
+
+#[test]
 fn names_and_errors_say_what_is_known() {
     for choice in KernelChoice::ALL {
         assert_eq!(choice.name().parse::<KernelChoice>().expect("a known name"), choice);

@@ -2,7 +2,7 @@
 //! Needs no library, watertight, deterministic, and the fastest here: the default.
 //!
 //! A binary tree ([`build`]) is collapsed into eight-wide nodes ([`collapse`]); a ray tests eight boxes ([`node`]) or eight
-//! triangles ([`leaf`]) at once ([`traverse`]).
+//! triangles ([`leaf`]) at once, and several rays take turns ([`traverse`]).
 #![allow(unsafe_code)] // run-time dispatch to CPU features
 
 mod build;
@@ -15,11 +15,15 @@ mod triangle;
 
 use std::mem::MaybeUninit;
 
+use traverse::{Closest, FLIGHT, Occlusion};
+
 use super::{RayKernel, TriangleHit, TriangleSoup};
 use crate::geometry::Ray;
+use crate::memory::use_large_pages;
 
-/// Stack entries kept on the thread's own stack; enough for 63 levels, far more than any sane scene has.
-const LOCAL_STACK: usize = 512;
+/// Stack entries of one ray kept on the thread's own stack; enough for 24 levels, more than most scenes have. No power of two, or
+/// the stacks of rays in flight would compete for the same few lines of the cache.
+const LOCAL_STACK: usize = 200;
 
 /// The eight-wide kernel.
 pub struct Wide {
@@ -82,27 +86,29 @@ impl Wide {
 
     fn build_for(soup: &TriangleSoup, instructions: Instructions) -> Self {
         let tree = collapse::collapse(&build::binary_tree(soup), soup);
+        use_large_pages(&tree.nodes);
+        use_large_pages(&tree.leaves);
         let extent = soup.positions.iter().flatten().fold(0.0, |extent: f32, x| extent.max(x.abs()));
         Self { tree, extent, instructions }
     }
 
-    /// Run `job` with room for a traversal's stack.
+    /// Run `job` with room for the stacks of all rays in flight.
     #[inline(always)]
-    fn with_stack<R>(&self, job: impl FnOnce(&mut [MaybeUninit<u64>]) -> R) -> R {
+    fn with_stacks(&self, job: impl FnOnce(&mut [MaybeUninit<u64>])) {
         let needed = traverse::stack_len(self.tree.depth);
         if needed <= LOCAL_STACK {
-            job(&mut [MaybeUninit::uninit(); LOCAL_STACK])
+            job(&mut [MaybeUninit::uninit(); LOCAL_STACK * FLIGHT]);
         } else {
-            job(deep_stack(needed).as_mut())
+            job(deep_stacks(needed).as_mut());
         }
     }
 }
 
-/// A stack for a tree too deep for the local one.
+/// Stacks for a tree too deep for the local ones.
 #[cold]
 #[inline(never)]
-fn deep_stack(len: usize) -> Box<[MaybeUninit<u64>]> {
-    Box::new_uninit_slice(len)
+fn deep_stacks(len: usize) -> Box<[MaybeUninit<u64>]> {
+    Box::new_uninit_slice(len * FLIGHT)
 }
 
 impl RayKernel for Wide {
@@ -110,28 +116,30 @@ impl RayKernel for Wide {
         "wide"
     }
 
-    fn closest(&self, ray: &Ray) -> Option<TriangleHit> {
-        // SAFETY: `instructions` is one of those the CPU has.
+    fn closest_each(&self, rays: &[Ray], hits: &mut [Option<TriangleHit>]) {
+        assert_eq!(rays.len(), hits.len());
+        // SAFETY: `instructions` is one of those the CPU has; there is a place for each ray.
         unsafe {
             match self.instructions {
                 #[cfg(target_arch = "x86_64")]
-                Instructions::Avx512 => closest_avx512(self, ray),
+                Instructions::Avx512 => closest_avx512(self, rays, hits),
                 #[cfg(target_arch = "x86_64")]
-                Instructions::Avx2 => closest_avx2(self, ray),
-                Instructions::Portable => closest_portable(self, ray),
+                Instructions::Avx2 => closest_avx2(self, rays, hits),
+                Instructions::Portable => closest_portable(self, rays, hits),
             }
         }
     }
 
-    fn occluded(&self, ray: &Ray) -> bool {
-        // SAFETY: `instructions` is one of those the CPU has.
+    fn occluded_each(&self, rays: &[Ray], occluded: &mut [bool]) {
+        assert_eq!(rays.len(), occluded.len());
+        // SAFETY: `instructions` is one of those the CPU has; there is a place for each ray.
         unsafe {
             match self.instructions {
                 #[cfg(target_arch = "x86_64")]
-                Instructions::Avx512 => occluded_avx512(self, ray),
+                Instructions::Avx512 => occluded_avx512(self, rays, occluded),
                 #[cfg(target_arch = "x86_64")]
-                Instructions::Avx2 => occluded_avx2(self, ray),
-                Instructions::Portable => occluded_portable(self, ray),
+                Instructions::Avx2 => occluded_avx2(self, rays, occluded),
+                Instructions::Portable => occluded_portable(self, rays, occluded),
             }
         }
     }
@@ -142,23 +150,23 @@ impl RayKernel for Wide {
 macro_rules! compile {
     ($(#[$features:meta])* $lanes:ty: $closest:ident, $occluded:ident) => {
         /// # Safety
-        /// The CPU must have the features.
+        /// The CPU must have the features, and there must be as many places as rays.
         $(#[$features])*
-        unsafe fn $closest(kernel: &Wide, ray: &Ray) -> Option<TriangleHit> {
-            // SAFETY: the caller promises the CPU; the stack has the right size.
-            kernel.with_stack(|stack| unsafe {
-                traverse::closest::<$lanes>(&kernel.tree, kernel.extent, ray, stack)
-            })
+        unsafe fn $closest(kernel: &Wide, rays: &[Ray], hits: &mut [Option<TriangleHit>]) {
+            // SAFETY: the caller promises the CPU and the places; the stacks have the right size.
+            kernel.with_stacks(|stacks| unsafe {
+                traverse::each::<Closest<$lanes>>((&kernel.tree, kernel.extent), rays, hits, stacks);
+            });
         }
 
         /// # Safety
-        /// The CPU must have the features.
+        /// The CPU must have the features, and there must be as many places as rays.
         $(#[$features])*
-        unsafe fn $occluded(kernel: &Wide, ray: &Ray) -> bool {
-            // SAFETY: the caller promises the CPU; the stack has the right size.
-            kernel.with_stack(|stack| unsafe {
-                traverse::occluded::<$lanes>(&kernel.tree, kernel.extent, ray, stack)
-            })
+        unsafe fn $occluded(kernel: &Wide, rays: &[Ray], occluded: &mut [bool]) {
+            // SAFETY: the caller promises the CPU and the places; the stacks have the right size.
+            kernel.with_stacks(|stacks| unsafe {
+                traverse::each::<Occlusion<$lanes>>((&kernel.tree, kernel.extent), rays, occluded, stacks);
+            });
         }
     };
 }

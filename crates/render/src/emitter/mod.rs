@@ -65,11 +65,15 @@ pub trait Emitter: Send + Sync {
     #[inline]
     fn prefetch(&self, _u: [f32; 2]) {}
 
-    /// Radiance leaving the hit against `hit.direction`. Delta lights are never hit.
-    fn radiance(&self, hit: &EmitterHit) -> Rgb;
+    /// Radiance leaving the hit against `hit.direction`; none from delta lights, which are never hit.
+    fn radiance(&self, _hit: &EmitterHit) -> Rgb {
+        Rgb::ZERO
+    }
 
-    /// Solid-angle density of [`Emitter::sample`] at the hit.
-    fn density(&self, from: Vec3, hit: &EmitterHit) -> f32;
+    /// Solid-angle density of [`Emitter::sample`] at the hit; 0 for delta lights.
+    fn density(&self, _from: Vec3, _hit: &EmitterHit) -> f32 {
+        0.0
+    }
 
     /// [`Emitter::radiance`] and [`Emitter::density`] together.
     #[inline]

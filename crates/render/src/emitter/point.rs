@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::emitter::placement::vector_or_transform;
-use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::emitter::{Emitter, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -35,14 +35,6 @@ impl Emitter for Point {
             density: 1.0,
             delta: true,
         })
-    }
-
-    fn radiance(&self, _: &EmitterHit) -> Rgb {
-        Rgb::ZERO
-    }
-
-    fn density(&self, _: Vec3, _: &EmitterHit) -> f32 {
-        0.0
     }
 
     fn power(&self, _: &SceneSphere) -> f32 {

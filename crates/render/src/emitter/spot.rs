@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 use std::sync::Arc;
 
 use crate::Result;
-use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::emitter::{Emitter, LightSample, SceneSphere};
 use crate::geometry::{Affine3A, Rgb, Vec2, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -78,14 +78,6 @@ impl Emitter for Spot {
             density: 1.0,
             delta: true,
         })
-    }
-
-    fn radiance(&self, _: &EmitterHit) -> Rgb {
-        Rgb::ZERO
-    }
-
-    fn density(&self, _: Vec3, _: &EmitterHit) -> f32 {
-        0.0
     }
 
     fn power(&self, _: &SceneSphere) -> f32 {

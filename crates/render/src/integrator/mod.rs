@@ -90,8 +90,19 @@ pub struct Measurement {
     pub depth: f32,
 }
 
+/// A light path from the camera: where it begins, the numbers that drive it, and what it brings home.
+pub struct CameraPath {
+    /// The camera ray.
+    pub ray: Ray,
+    /// What every choice along the path is made with.
+    pub numbers: PathNumbers,
+    /// The result.
+    pub measurement: Measurement,
+}
+
 /// A way to solve the light transport equation from the camera.
 pub trait Integrator: Send + Sync {
-    /// Estimate what a camera ray measures.
-    fn measure(&self, scene: &Scene, ray: Ray, numbers: &mut PathNumbers) -> Measurement;
+    /// Estimate what each of at most [`WAVE`](crate::scene::world::WAVE) camera rays measures: independent of each other, but
+    /// together they wait for memory less.
+    fn measure(&self, scene: &Scene, paths: &mut [CameraPath]);
 }

@@ -3,11 +3,14 @@
 //! At every surface one light is sampled and one direction is scattered, and the two ways to reach a light are combined by multiple
 //! importance sampling (Kajiya 1986, "The Rendering Equation"; Veach & Guibas 1995, "Optimally Combining Sampling Techniques
 //! for Monte Carlo Rendering"). Choose it by default; caustics from small lights need another integrator.
+//!
+//! Paths advance in a wave, all by one surface at a time: what one waits for in memory is fetched while the others compute.
 
 use crate::geometry::{Ray, Rgb, Vec3};
-use crate::integrator::{Entry, Integrator, Measurement, Transport};
-use crate::sampler::{BounceNumbers, PathNumbers};
-use crate::scene::{Scene, world::Vertex};
+use crate::integrator::{CameraPath, Entry, Integrator, Transport};
+use crate::sampler::BounceNumbers;
+use crate::scene::world::{Hit, Vertex};
+use crate::scene::{Scene, Seen};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "path",
@@ -28,118 +31,212 @@ const MOST_SURVIVORS: f32 = 0.95;
 
 struct Path(Transport);
 
-/// How the ray that is being followed was made.
-struct Origin {
-    position: Vec3,
-    /// Solid-angle density of its direction; infinite for a delta lobe or the camera.
+impl Integrator for Path {
+    fn measure(&self, scene: &Scene, paths: &mut [CameraPath]) {
+        let mut wave = Wave::new(scene, self.0, paths);
+        while wave.depth < self.0.max_depth && !wave.walks.is_empty() {
+            wave.draw_numbers();
+            wave.trace();
+            wave.scatter();
+            wave.connect();
+            wave.depth += 1;
+        }
+    }
+}
+
+/// A path that has not ended.
+#[derive(Clone, Copy)]
+struct Walk {
+    /// Which of the wave's camera paths it is.
+    number: usize,
+    throughput: Rgb,
+    eta: f32,
+    /// Where its ray was made.
+    origin: Vec3,
+    /// Solid-angle density of the ray's direction; infinite for a delta lobe or the camera.
     density: f32,
 }
 
-impl Integrator for Path {
-    fn measure(&self, scene: &Scene, mut ray: Ray, numbers: &mut PathNumbers) -> Measurement {
-        let mut measurement = Measurement::default();
-        let mut throughput = Rgb::ONE;
-        let mut eta = 1.0_f32;
-        let mut origin = Origin { position: ray.origin, density: f32::INFINITY };
-        let mut depth = 0;
-        if self.0.max_depth == 0 {
-            return measurement;
-        }
-        loop {
-            let chosen = numbers.bounce(depth);
-            scene.prefetch_light(&chosen);
-            let hidden = depth == 0 && self.0.hide_emitters;
-            let hit = if hidden { scene.world.first_dark(&mut ray) } else { scene.world.intersect(&ray) };
-            if !hidden {
-                measurement.radiance += throughput * self.emission(scene, &ray, hit.as_ref(), &origin);
-            }
-            let Some(hit) = hit else { break };
-            let vertex = scene.world.vertex(&ray, &hit);
-            if depth == 0 {
-                measurement.albedo = vertex.bsdf.albedo(&vertex.surface);
-                measurement.normal = vertex.surface.shading.n;
-                measurement.depth = hit.t;
-            }
-            if depth + 1 >= self.0.max_depth {
-                break;
-            }
-
-            // Next-event estimation.
-            if vertex.smooth {
-                measurement.radiance += throughput * self.direct(scene, &vertex, &chosen);
-            }
-
-            // Scatter.
-            let Some(scattered) = vertex.bsdf.sample(&vertex.surface, vertex.wo, chosen.lobe, chosen.bsdf)
-            else {
-                break;
-            };
-            throughput *= scattered.weight;
-            eta *= scattered.eta;
-            let direction = vertex.surface.shading.to_world(scattered.wi);
-            ray = vertex.ray(direction, f32::INFINITY);
-            let density = if scattered.delta { f32::INFINITY } else { scattered.density };
-            origin = Origin { position: vertex.surface.position, density };
-            depth += 1;
-
-            // Russian roulette, on what the path can still bring home.
-            let largest = throughput.max_element();
-            if largest == 0.0 {
-                break;
-            }
-            if depth >= self.0.rr_depth {
-                let survival = (PERSISTENCE * largest * eta * eta).min(MOST_SURVIVORS);
-                if chosen.roulette >= survival {
-                    break;
-                }
-                throughput /= survival;
-            }
-        }
-        measurement
-    }
+/// Light that a camera path gets unless something is in its way.
+struct Connection {
+    number: usize,
+    radiance: Rgb,
 }
 
-impl Path {
-    /// Light that the ray ran into, weighted against next-event estimation.
-    #[inline]
-    fn emission(
-        &self,
-        scene: &Scene,
-        ray: &Ray,
-        hit: Option<&crate::scene::world::Hit>,
-        origin: &Origin,
-    ) -> Rgb {
-        let weight = |density: f32| {
-            if origin.density == f32::INFINITY { 1.0 } else { self.0.mis.weight(origin.density, density) }
+/// Paths that advance together. Vectors of walks, rays, chosen numbers and hits run in parallel.
+struct Wave<'a> {
+    scene: &'a Scene,
+    transport: Transport,
+    paths: &'a mut [CameraPath],
+    /// Surfaces behind all walks.
+    depth: u32,
+    walks: Vec<Walk>,
+    rays: Vec<Ray>,
+    chosen: Vec<BounceNumbers>,
+    hits: Vec<Option<Hit>>,
+    connections: Vec<Connection>,
+    shadow_rays: Vec<Ray>,
+    occluded: Vec<bool>,
+}
+
+impl<'a> Wave<'a> {
+    fn new(scene: &'a Scene, transport: Transport, paths: &'a mut [CameraPath]) -> Self {
+        let rays: Vec<Ray> = paths.iter().map(|path| path.ray).collect();
+        let walk = |(number, ray): (usize, &Ray)| Walk {
+            number,
+            throughput: Rgb::ONE,
+            eta: 1.0,
+            origin: ray.origin,
+            density: f32::INFINITY,
         };
-        let Some(hit) = hit else {
-            let mut radiance = Rgb::ZERO;
-            for environment in &scene.environments {
-                let seen = environment.seen(ray.direction);
-                radiance += seen.radiance * weight(seen.density);
-            }
-            return radiance;
-        };
-        let Some(seen) = scene.emitter_seen(ray, hit, origin.position) else { return Rgb::ZERO };
-        seen.radiance * weight(seen.density)
+        let walks: Vec<Walk> = rays.iter().enumerate().map(walk).collect();
+        let count = walks.len();
+        Self {
+            scene,
+            transport,
+            paths,
+            depth: 0,
+            walks,
+            rays,
+            chosen: Vec::with_capacity(count),
+            hits: Vec::with_capacity(count),
+            connections: Vec::with_capacity(count),
+            shadow_rays: Vec::with_capacity(count),
+            occluded: Vec::with_capacity(count),
+        }
     }
 
-    /// Light from one sampled light, weighted against scattering.
+    /// The numbers of the next surface of each walk.
+    fn draw_numbers(&mut self) {
+        self.chosen.clear();
+        for walk in &self.walks {
+            let chosen = self.paths[walk.number].numbers.bounce(self.depth);
+            self.scene.prefetch_light(&chosen);
+            self.chosen.push(chosen);
+        }
+    }
+
+    /// Whether lights must not be seen now.
+    fn lights_hidden(&self) -> bool {
+        self.depth == 0 && self.transport.hide_emitters
+    }
+
+    /// The next surface of each walk.
+    fn trace(&mut self) {
+        self.hits.resize(self.rays.len(), None);
+        if self.lights_hidden() {
+            for (hit, ray) in self.hits.iter_mut().zip(&mut self.rays) {
+                *hit = self.scene.world.first_dark(ray);
+            }
+        } else {
+            self.scene.world.intersect_each(&self.rays, &mut self.hits);
+        }
+    }
+
+    /// Let each walk meet its surface, and close ranks after those that end there.
+    fn scatter(&mut self) {
+        let mut going_on = 0;
+        for i in 0..self.walks.len() {
+            going_on += usize::from(self.advance(i, going_on).is_some());
+        }
+        self.walks.truncate(going_on);
+        self.rays.truncate(going_on);
+    }
+
+    /// One walk at its surface; `None` when it ends there, else it goes on in another place, not after its own.
     #[inline]
-    fn direct(&self, scene: &Scene, vertex: &Vertex<'_>, chosen: &BounceNumbers) -> Rgb {
+    fn advance(&mut self, i: usize, place: usize) -> Option<()> {
+        let (mut walk, ray, hit, chosen) = (self.walks[i], self.rays[i], self.hits[i], self.chosen[i]);
+        if !self.lights_hidden() {
+            let emission = walk.throughput * self.emission(&walk, &ray, hit.as_ref());
+            self.paths[walk.number].measurement.radiance += emission;
+        }
+        let hit = hit?;
+        let vertex = self.scene.world.vertex(&ray, &hit);
+        if self.depth == 0 {
+            let measurement = &mut self.paths[walk.number].measurement;
+            measurement.albedo = vertex.bsdf.albedo(&vertex.surface);
+            measurement.normal = vertex.surface.shading.n;
+            measurement.depth = hit.t;
+        }
+        if self.depth + 1 >= self.transport.max_depth {
+            return None;
+        }
+
+        // Next-event estimation.
+        if vertex.smooth {
+            self.light_directly(&walk, &vertex, &chosen);
+        }
+
+        // Scatter.
+        let scattered = vertex.bsdf.sample(&vertex.surface, vertex.wo, chosen.lobe, chosen.bsdf)?;
+        walk.throughput *= scattered.weight;
+        walk.eta *= scattered.eta;
+        walk.origin = vertex.surface.position;
+        walk.density = if scattered.delta { f32::INFINITY } else { scattered.density };
+        let direction = vertex.surface.shading.to_world(scattered.wi);
+
+        // Russian roulette, on what the path can still bring home.
+        let largest = walk.throughput.max_element();
+        if largest == 0.0 {
+            return None;
+        }
+        if self.depth + 1 >= self.transport.rr_depth {
+            let survival = (PERSISTENCE * largest * walk.eta * walk.eta).min(MOST_SURVIVORS);
+            if chosen.roulette >= survival {
+                return None;
+            }
+            walk.throughput /= survival;
+        }
+        self.walks[place] = walk;
+        self.rays[place] = vertex.ray(direction, f32::INFINITY);
+        Some(())
+    }
+
+    /// Light that the ray ran into, weighted against next-event estimation.
+    #[inline]
+    fn emission(&self, walk: &Walk, ray: &Ray, hit: Option<&Hit>) -> Rgb {
+        let weighted = |Seen { radiance, density }: Seen| {
+            if walk.density == f32::INFINITY {
+                radiance
+            } else {
+                radiance * self.transport.mis.weight(walk.density, density)
+            }
+        };
+        match hit {
+            Some(hit) => self.scene.emitter_seen(ray, hit, walk.origin).map_or(Rgb::ZERO, weighted),
+            None => self.scene.environments.iter().map(|sky| weighted(sky.seen(ray.direction))).sum(),
+        }
+    }
+
+    /// Light from one sampled light, weighted against scattering, if it is not occluded.
+    #[inline]
+    fn light_directly(&mut self, walk: &Walk, vertex: &Vertex<'_>, chosen: &BounceNumbers) {
         let position = vertex.surface.position;
-        let Some(light) = scene.sample_light(position, chosen.light_choice, chosen.light) else {
-            return Rgb::ZERO;
+        let Some(light) = self.scene.sample_light(position, chosen.light_choice, chosen.light) else {
+            return;
         };
         let wi = vertex.surface.shading.to_local(light.direction);
         let scattered = vertex.bsdf.evaluate(&vertex.surface, vertex.wo, wi);
         if scattered.value == Rgb::ZERO {
-            return Rgb::ZERO;
+            return;
         }
-        if scene.world.occluded(&vertex.shadow_ray(light.direction, light.distance)) {
-            return Rgb::ZERO;
+        let weight =
+            if light.delta { 1.0 } else { self.transport.mis.weight(light.density, scattered.density) };
+        let radiance = scattered.value * light.radiance * (weight / light.density);
+        self.connections.push(Connection { number: walk.number, radiance: walk.throughput * radiance });
+        self.shadow_rays.push(vertex.shadow_ray(light.direction, light.distance));
+    }
+
+    /// Add the light that is not occluded.
+    fn connect(&mut self) {
+        self.occluded.resize(self.shadow_rays.len(), false);
+        self.scene.world.occluded_each(&self.shadow_rays, &mut self.occluded);
+        for (connection, occluded) in self.connections.drain(..).zip(&self.occluded) {
+            if !occluded {
+                self.paths[connection.number].measurement.radiance += connection.radiance;
+            }
         }
-        let weight = if light.delta { 1.0 } else { self.0.mis.weight(light.density, scattered.density) };
-        scattered.value * light.radiance * (weight / light.density)
+        self.shadow_rays.clear();
     }
 }

@@ -9,6 +9,7 @@ use crate::emitter::{self, Emitter, SceneSphere, area::Area, selection::Selectio
 use crate::film::FilmSettings;
 use crate::geometry::Vec3;
 use crate::integrator::{Mis, Transport};
+use crate::memory::use_large_pages;
 use crate::scene::analytic::{AnalyticShapes, Numbered};
 use crate::scene::build::Builder;
 use crate::scene::node::{Kind, Node};
@@ -63,7 +64,7 @@ impl Scene {
             }
         }
         builder.finish(&properties)?;
-        assembly.finish(builder, options, SceneParts { transport, film, sensor })
+        assembly.finish(builder.into_warnings(), options, SceneParts { transport, film, sensor })
     }
 }
 
@@ -117,10 +118,11 @@ impl Assembly {
         self.shapes.push(PlacedShape { analytic, bsdf, emitter, smooth, needs_tangents });
     }
 
-    fn finish(self, builder: Builder, options: &SceneOptions, parts: SceneParts) -> Result<Scene> {
+    fn finish(self, warnings: Vec<String>, options: &SceneOptions, parts: SceneParts) -> Result<Scene> {
         let bounds = self.bounds();
         let soup = TriangleSoup { positions: &self.positions, indices: &self.indices };
         let kernel = accel::build(options.kernel, &soup, options.embree_library.as_deref())?;
+        use_large_pages(&self.triangles);
         let selection = Selection::new(&self.emitters, &bounds);
         let environments = self.emitters.iter().enumerate();
         let environments =
@@ -141,7 +143,7 @@ impl Assembly {
             transport: parts.transport,
             film: parts.film,
             sensor: parts.sensor,
-            warnings: builder.warnings,
+            warnings,
         })
     }
 

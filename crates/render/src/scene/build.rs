@@ -40,6 +40,11 @@ impl Builder {
         Self { lenient, ..Self::default() }
     }
 
+    /// What was found wrong; decoded images and all else that was only shared while building is let go.
+    pub fn into_warnings(self) -> Vec<String> {
+        self.warnings
+    }
+
     /// Build a node by its family's registry and insist that nothing is left over.
     /// An unknown plugin gives `substitute()` with a warning when lenient.
     pub fn from_registry<T: ?Sized>(

@@ -6,6 +6,7 @@ use crate::accel::{RayKernel, TriangleHit};
 use crate::bsdf::Bsdf;
 use crate::emitter::EmitterHit;
 use crate::geometry::{Frame, Ray, Surface, Vec2, Vec3};
+use crate::memory::prefetch;
 use crate::scene::analytic::AnalyticShapes;
 use crate::scene::mesh::Mesh;
 use crate::shape::Analytic;
@@ -15,6 +16,9 @@ const OFFSET: f32 = 1.0 / 32_768.0;
 
 /// The share of its length by which a shadow ray stops before the light.
 const SHADOW_MARGIN: f32 = 5e-4;
+
+/// The most rays that are followed together: enough to keep busy while memory is slow, few enough to stay in the cache.
+pub const WAVE: usize = 32;
 
 /// What a ray met.
 #[derive(Clone, Copy, Debug)]
@@ -133,9 +137,27 @@ pub struct Vertex<'a> {
 
 impl World {
     /// The first surface that a ray meets.
-    #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let mut hit = self.kernel.closest(ray).map(|TriangleHit { t, u, v, triangle }| {
+        self.hit(ray, self.kernel.closest(ray))
+    }
+
+    /// The first surface that each of at most [`WAVE`] rays meets.
+    pub fn intersect_each(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        let mut triangles = [None; WAVE];
+        let triangles = &mut triangles[..rays.len()];
+        self.kernel.closest_each(rays, triangles);
+        for hit in triangles.iter().flatten() {
+            prefetch(&self.triangles[hit.triangle as usize]);
+        }
+        for ((hit, ray), triangle) in hits.iter_mut().zip(rays).zip(triangles) {
+            *hit = self.hit(ray, *triangle);
+        }
+    }
+
+    /// What a ray meets first, given the first triangle that it meets.
+    #[inline]
+    fn hit(&self, ray: &Ray, triangle: Option<TriangleHit>) -> Option<Hit> {
+        let mut hit = triangle.map(|TriangleHit { t, u, v, triangle }| {
             let shape = self.triangles[triangle as usize].shape;
             Hit { t, shape, triangle, barycentric: [u, v] }
         });
@@ -161,9 +183,20 @@ impl World {
     }
 
     /// Whether anything lies on the ray.
-    #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.kernel.occluded(ray) || (!self.analytic.is_empty() && self.analytic.occluded(*ray))
+        let mut occluded = [false];
+        self.occluded_each(std::slice::from_ref(ray), &mut occluded);
+        occluded[0]
+    }
+
+    /// Whether anything lies on each of the rays.
+    pub fn occluded_each(&self, rays: &[Ray], occluded: &mut [bool]) {
+        self.kernel.occluded_each(rays, occluded);
+        if !self.analytic.is_empty() {
+            for (occluded, ray) in occluded.iter_mut().zip(rays) {
+                *occluded = *occluded || self.analytic.occluded(*ray);
+            }
+        }
     }
 
     #[inline]

@@ -9,6 +9,7 @@ use super::lanes::WIDTH;
 use super::leaf::Leaf;
 use super::node::{Child, Node};
 use crate::accel::TriangleSoup;
+use crate::memory::prefetch;
 
 /// Cost of testing one inner node, in units of one leaf. Both wait for memory more than they compute; anything from 0.5 to 2
 /// performs about alike.
@@ -22,6 +23,25 @@ pub(super) struct Tree {
     pub(super) leaves: Vec<Leaf>,
     /// Levels of inner nodes.
     pub(super) depth: usize,
+}
+
+impl Tree {
+    /// Have a node or leaf fetched from memory.
+    ///
+    /// # Safety
+    /// It must be a child of this tree.
+    #[inline(always)]
+    #[allow(unsafe_code)] // as unchecked as the traversal that asks for it
+    pub(super) unsafe fn prefetch(&self, child: Child) {
+        // SAFETY: children index nodes and leaves of their tree.
+        unsafe {
+            if child.is_leaf() {
+                prefetch(self.leaves.get_unchecked(child.index()));
+            } else {
+                prefetch(self.nodes.get_unchecked(child.index()));
+            }
+        }
+    }
 }
 
 /// How one binary node is best represented.

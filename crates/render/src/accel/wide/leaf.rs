@@ -1,7 +1,7 @@
 //! Leaves: up to eight triangles in structure-of-arrays layout, tested all at once.
 #![allow(unsafe_code)] // loads from raw lanes; CPU features are promised by the caller
 
-use super::lanes::{Lanes, WIDTH, splat3};
+use super::lanes::{Lanes, WIDTH};
 use super::triangle::{Meeting, Shear};
 
 /// Up to [`WIDTH`] triangles. Empty lanes are NaN, which no comparison lets through.
@@ -40,45 +40,39 @@ impl Leaf {
     }
 }
 
-/// A sheared ray, one copy per lane.
-pub(super) struct LeafRay<L> {
-    shear: Shear,
-    scale: [L; 3],
-    origin: [L; 3],
-    zero: L,
-}
-
-impl<L: Lanes> LeafRay<L> {
+impl Shear {
+    /// One vertex of all lanes, as the scalar form does it.
+    ///
     /// # Safety
     /// The CPU must support `L`.
     #[inline(always)]
-    pub(super) unsafe fn new(shear: Shear) -> Self {
-        // SAFETY: the caller promises the CPU.
+    unsafe fn apply_lanes<L: Lanes>(&self, leaf: &Leaf, vertex: usize) -> [L; 3] {
+        let [kx, ky, kz] = self.axes;
+        // SAFETY: axes are below 3 and `vertex` too; the caller promises the CPU.
         unsafe {
-            Self { scale: splat3(shear.scale), origin: splat3(shear.origin), zero: L::splat(0.0), shear }
+            let relative = |axis: usize, origin: f32| {
+                let row = leaf.coordinates.get_unchecked(axis).get_unchecked(vertex);
+                L::load(row.as_ptr()).sub(L::splat(origin))
+            };
+            let z = relative(kz, self.origin[2]);
+            let x = relative(kx, self.origin[0]).sub(L::splat(self.scale[0]).mul(z));
+            let y = relative(ky, self.origin[1]).sub(L::splat(self.scale[1]).mul(z));
+            [x, y, z]
         }
     }
 
-    /// One vertex of all lanes, as [`Shear`] does it.
-    #[inline(always)]
-    fn apply(&self, leaf: &Leaf, vertex: usize) -> [L; 3] {
-        let [kx, ky, kz] = self.shear.axes;
-        // SAFETY: axes are below 3 and `vertex` too; `self` holds values of `L`, which prove the CPU.
-        let load = |axis: usize| unsafe {
-            L::load(leaf.coordinates.get_unchecked(axis).get_unchecked(vertex).as_ptr())
-        };
-        let z = load(kz).sub(self.origin[2]);
-        let x = load(kx).sub(self.origin[0]).sub(self.scale[0].mul(z));
-        let y = load(ky).sub(self.origin[1]).sub(self.scale[1].mul(z));
-        [x, y, z]
-    }
-
     /// The lanes hit at `0 < t <= t_max`.
+    ///
+    /// # Safety
+    /// The CPU must support `L`.
     #[inline(always)]
-    pub(super) fn test(&self, leaf: &Leaf, t_max: L) -> LaneHits<L> {
-        let a = self.apply(leaf, 0);
-        let b = self.apply(leaf, 1);
-        let c = self.apply(leaf, 2);
+    pub(super) unsafe fn test<L: Lanes>(&self, leaf: &Leaf, t_max: f32) -> LaneHits<L> {
+        // SAFETY: the caller promises the CPU.
+        let ([a, b, c], zero, t_max, scale) = unsafe {
+            let vertices =
+                [self.apply_lanes(leaf, 0), self.apply_lanes(leaf, 1), self.apply_lanes::<L>(leaf, 2)];
+            (vertices, L::splat(0.0), L::splat(t_max), L::splat(self.scale[2]))
+        };
         let u = c[0].mul(b[1]).sub(c[1].mul(b[0]));
         let v = a[0].mul(c[1]).sub(a[1].mul(c[0]));
         let w = b[0].mul(a[1]).sub(b[1].mul(a[0]));
@@ -86,30 +80,33 @@ impl<L: Lanes> LeafRay<L> {
         // functions of certainly opposite sign, so only lanes that pass need the exact test.
         let lowest = u.min(v).min(w);
         let highest = u.max(v).max(w);
-        let inside = self.zero.le(lowest) | highest.le(self.zero);
+        let inside = zero.le(lowest) | highest.le(zero);
         if inside == 0 {
             return LaneHits { mask: 0, t: u, v, w, determinant: u };
         }
-        let zeros = u.eq(self.zero) | v.eq(self.zero) | w.eq(self.zero);
+        let zeros = u.eq(zero) | v.eq(zero) | w.eq(zero);
         if inside & zeros != 0 {
-            return self.exact(leaf, inside, t_max);
+            // SAFETY: the caller promises the CPU.
+            return unsafe { self.exact(leaf, inside, t_max) };
         }
-        let scale = self.scale[2];
         let determinant = u.add(v).add(w);
         let depth = u.mul(scale.mul(a[2])).add(v.mul(scale.mul(b[2]))).add(w.mul(scale.mul(c[2])));
         let t = depth.div(determinant);
-        LaneHits { mask: inside & t.gt(self.zero) & t.le(t_max), t, v, w, determinant }
+        LaneHits { mask: inside & t.gt(zero) & t.le(t_max), t, v, w, determinant }
     }
 
     /// The same, one triangle at a time with exact signs.
+    ///
+    /// # Safety
+    /// The CPU must support `L`.
     #[cold]
     #[inline(never)]
-    fn exact(&self, leaf: &Leaf, lanes: u32, t_max: L) -> LaneHits<L> {
+    unsafe fn exact<L: Lanes>(&self, leaf: &Leaf, lanes: u32, t_max: L) -> LaneHits<L> {
         let (mut mask, mut rows) = (0, [[0.0; WIDTH]; 4]);
         let t_max = t_max.to_array()[0];
         for lane in 0..WIDTH {
             if lanes >> lane & 1 == 1
-                && let Some(meeting) = self.shear.meet(leaf.vertices(lane))
+                && let Some(meeting) = self.meet(leaf.vertices(lane))
                 && meeting.t > 0.0
                 && meeting.t <= t_max
             {
@@ -120,7 +117,7 @@ impl<L: Lanes> LeafRay<L> {
                 }
             }
         }
-        // SAFETY: `self` holds values of `L`, which prove the CPU; each row has all lanes.
+        // SAFETY: the caller promises the CPU; each row has all lanes.
         let load = |row: &[f32; WIDTH]| unsafe { L::load(row.as_ptr()) };
         let [t, v, w, determinant] = [load(&rows[0]), load(&rows[1]), load(&rows[2]), load(&rows[3])];
         LaneHits { mask, t, v, w, determinant }

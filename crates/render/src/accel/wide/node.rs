@@ -1,7 +1,7 @@
 //! Inner nodes: eight child boxes tested at once against one ray.
 #![allow(unsafe_code)] // loads from raw lanes; CPU features are promised by the caller
 
-use super::lanes::{Lanes, WIDTH, splat3};
+use super::lanes::{Lanes, WIDTH};
 use crate::geometry::{Ray, Vec3};
 
 /// What a node's child is: an inner node, or a leaf when [`Child::LEAF`] is set.
@@ -69,83 +69,78 @@ impl Node {
 
 /// A ray prepared for the slab test, conservative against rounding.
 ///
-/// `(plane - origin) / direction` carries at most three roundings, so growing the far distances by `1 + 2⁻²⁰` leaves more
+/// A plane is met at `plane · inverse - shift`. What is lost to rounding there is relative to the scene's size, and every slab
+/// grows by a margin of some more. The rest is relative to the distance: growing the far distances by `1 + 2⁻²⁰` leaves more
 /// room than the `1 + 2γ(3)` of Ize 2013 ("Robust BVH Ray Traversal", JCGT 2(2)), and covers the few roundings of the sheared
-/// vertices too. Where a direction component is (almost) zero its inverse is capped, and the slab grows by a margin that
-/// outweighs the cap over the whole scene; thus a ray that lies in a plane of a box is inside, and no 0·∞ ever arises.
-pub(super) struct SlabRay<L> {
-    origin: [L; 3],
-    inverse: [L; 3],
-    inverse_far: [L; 3],
-    margin: [L; 3],
-    grow: L,
-    zero: L,
+/// vertices too. Where a direction component is (almost) zero its inverse is capped, and the margin outweighs the cap over the
+/// whole scene; thus a ray that lies in a plane of a box is inside, and no 0·∞ ever arises.
+pub(super) struct SlabRay {
+    inverse: [f32; 3],
+    near_shift: [f32; 3],
+    far_shift: [f32; 3],
     /// Which of `planes` comes first on each axis, as the ray flies.
-    near: [usize; 3],
+    near: [u32; 3],
 }
 
 /// How much distances grow so that no rounding cuts off a box.
 pub(super) const GROW: f32 = 1.0 + 1.0 / (1 << 20) as f32;
 
-impl<L: Lanes> SlabRay<L> {
+/// How much slabs grow on each side, relative to the greatest coordinates: some multiples of what rounding takes.
+const MARGIN: f32 = 1.0 / (1 << 21) as f32;
+
+impl SlabRay {
     /// `extent` bounds the absolute value of all coordinates of the scene.
+    #[inline(always)]
+    pub(super) fn new(ray: &Ray, extent: f32) -> Self {
+        const CAP: f32 = (1_u64 << 40) as f32;
+        let steepest = ray.direction.abs().max_element();
+        let reach = extent + ray.origin.abs().max_element();
+        let inverse =
+            (Vec3::ONE / ray.direction.abs().max(Vec3::splat(steepest / CAP))).copysign(ray.direction);
+        let (shift, margin) = (ray.origin * inverse, inverse.abs() * (MARGIN * reach));
+        Self {
+            inverse: inverse.to_array(),
+            near_shift: (shift + margin).to_array(),
+            far_shift: (shift - margin).to_array(),
+            near: [
+                u32::from(inverse.x < 0.0),
+                2 + u32::from(inverse.y < 0.0),
+                4 + u32::from(inverse.z < 0.0),
+            ],
+        }
+    }
+
+    /// The children whose boxes the ray meets within `0 <= t <= t_max`, or a little beyond, and where it enters them.
     ///
     /// # Safety
     /// The CPU must support `L`.
     #[inline(always)]
-    pub(super) unsafe fn new(ray: &Ray, extent: f32) -> Self {
-        const CAP: f32 = (1_u64 << 40) as f32;
-        let steepest = ray.direction.abs().max_element();
-        // Within the scene t · steepest stays below 2 · reach, hence the capped ray strays by less than 2 · reach / CAP.
-        let reach = extent + ray.origin.abs().max_element();
-        let inverse =
-            (Vec3::ONE / ray.direction.abs().max(Vec3::splat(steepest / CAP))).copysign(ray.direction);
-        let margin = inverse.abs() * (4.0 / CAP * reach);
+    pub(super) unsafe fn test<L: Lanes>(&self, node: &Node, t_max: f32) -> (u32, L) {
         // SAFETY: the caller promises the CPU.
         unsafe {
-            Self {
-                origin: splat3(ray.origin.to_array()),
-                inverse: splat3(inverse.to_array()),
-                inverse_far: splat3((inverse * GROW).to_array()),
-                margin: splat3(margin.to_array()),
-                grow: L::splat(GROW),
-                zero: L::splat(0.0),
-                near: [
-                    usize::from(inverse.x < 0.0),
-                    2 + usize::from(inverse.y < 0.0),
-                    4 + usize::from(inverse.z < 0.0),
-                ],
-            }
+            let (x, y, z) = (self.slab::<L>(node, 0), self.slab::<L>(node, 1), self.slab::<L>(node, 2));
+            let entry = x.0.max(y.0).max(z.0.max(L::splat(0.0)));
+            let exit = x.1.min(y.1).min(z.1.min(L::splat(t_max))).mul(L::splat(GROW));
+            (entry.le(exit), entry)
         }
     }
 
-    /// How far the slab test must look so that no box with a hit at `t_max` is missed.
-    #[inline(always)]
-    pub(super) fn reach(&self, t_max: L) -> L {
-        t_max.mul(self.grow)
-    }
-
-    /// The children whose boxes the ray meets within `0 <= t <= reach`, and where it enters them.
-    #[inline(always)]
-    pub(super) fn test(&self, node: &Node, reach: L) -> (u32, L) {
-        let (x, y, z) = (self.slab(node, 0), self.slab(node, 1), self.slab(node, 2));
-        let entry = x.0.max(y.0).max(z.0.max(self.zero));
-        let exit = x.1.min(y.1).min(z.1.min(reach));
-        (entry.le(exit), entry)
-    }
-
     /// Where the ray enters and leaves the eight slabs of one axis.
+    ///
+    /// # Safety
+    /// The CPU must support `L`.
     #[inline(always)]
-    fn slab(&self, node: &Node, axis: usize) -> (L, L) {
-        let near = self.near[axis];
-        // SAFETY: `near` is below 6 and so is its partner; `self` holds values of `L`, which prove the CPU.
-        let (near, far) = unsafe {
+    unsafe fn slab<L: Lanes>(&self, node: &Node, axis: usize) -> (L, L) {
+        let near = self.near[axis] as usize;
+        // SAFETY: `near` is below 6 and so is its partner; the caller promises the CPU.
+        unsafe {
             let planes = &node.planes;
-            (L::load(planes.get_unchecked(near).as_ptr()), L::load(planes.get_unchecked(near ^ 1).as_ptr()))
-        };
-        (
-            near.sub(self.origin[axis]).mul_sub(self.inverse[axis], self.margin[axis]),
-            far.sub(self.origin[axis]).mul_add(self.inverse_far[axis], self.margin[axis]),
-        )
+            let at = |plane: usize| L::load(planes.get_unchecked(plane).as_ptr());
+            let inverse = L::splat(self.inverse[axis]);
+            (
+                at(near).mul_sub(inverse, L::splat(self.near_shift[axis])),
+                at(near ^ 1).mul_sub(inverse, L::splat(self.far_shift[axis])),
+            )
+        }
     }
 }
