@@ -46,6 +46,8 @@ fn count(sequence: &str, dims: usize) -> Option<u64> {
         ("stratified", 8) => Some(6_u64.pow(8)),
         ("stratified", _) => Some(1), // there is no grid
         ("orthogonal_array", _) => Some(1031 * 1031),
+        ("korobov", _) => Some(1 << 20),
+        ("fibonacci", _) => Some(1_346_269),
         _ => None,
     }
 }

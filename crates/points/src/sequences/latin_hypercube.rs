@@ -5,7 +5,9 @@
 //! costly evaluations of functions that are nearly sums. Interactions keep the error of independent
 //! points (M. Stein, *Large sample properties of simulations using Latin hypercube sampling*, 1987).
 //!
-//! The permutations are computed, so that n points take no memory and any of them costs the same.
+//! The place within a slice is a hash of a counter that takes odd steps of its own in each coordinate, which are different
+//! generators (G. Steele, D. Lea and C. Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014). The permutations are
+//! computed, so that n points take no memory and any of them costs the same.
 
 use std::ops::Range;
 
@@ -16,7 +18,7 @@ use crate::counts::counted_points;
 use crate::instruction_sets::for_this_machine;
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
-use crate::seed::counted;
+use crate::seed::mix;
 use crate::shuffle::{self, Shuffle};
 use crate::unit::Unit;
 use crate::{PointSet, Seed};
@@ -45,8 +47,10 @@ pub struct LatinHypercube {
     cells: Cells,
     /// The keys of the permutations, for some rows.
     permutations: [Vec<u32>; 2],
-    /// The two keys of the place within a slice, for some rows.
-    places: [Vec<u64>; 2],
+    /// The words whose hash is the place within a slice, for the first rows.
+    places: Vec<u64>,
+    /// What they grow by from one row to the next: an odd number for each coordinate.
+    strides: Vec<u64>,
 }
 
 impl LatinHypercube {
@@ -55,6 +59,10 @@ impl LatinHypercube {
         let rows = PERIOD.div_ceil(dims);
         let key = |dim: usize, which| seed.dimension(dim as u64).split(0, which).bits64();
         let words = |which| (0..dims).map(|dim| key(dim, which)).collect::<Vec<_>>().repeat(rows);
+        let strides: Vec<_> = words(2).into_iter().map(|word| word | 1).collect();
+        let later = |(at, (word, stride)): (usize, (u64, &u64))| {
+            word.wrapping_add(stride.wrapping_mul((at / dims) as u64))
+        };
         let keys: Vec<_> = words(0).into_iter().map(shuffle::keys).collect();
         Self {
             dims,
@@ -62,7 +70,8 @@ impl LatinHypercube {
             shuffle: Shuffle::new(n),
             cells: Cells::new(n),
             permutations: [0, 1].map(|half| keys.iter().map(|key| key[half]).collect()),
-            places: [words(1), words(2)],
+            places: words(1).into_iter().zip(&strides).enumerate().map(later).collect(),
+            strides,
         }
     }
 
@@ -70,22 +79,31 @@ impl LatinHypercube {
         check_length(&rows, self.dims, out.len());
         let [first, step] = &self.permutations;
         let period = first.len();
-        let (mut left, mut right, mut indices) = (vec![0; period], vec![0; period], vec![0; period]);
-        let mut index = rows.start;
-        let mut digits = self.shuffle.digits(index);
+        let (mut left, mut right) = (vec![0; period], vec![0; period]);
+        let (mut words, steps) = (self.words(rows.start), self.steps((period / self.dims) as u64));
+        let mut digits = self.shuffle.digits(rows.start);
         for out in out.chunks_mut(period) {
             let places = out.len();
             for at in (0..places).step_by(self.dims) {
                 left[at..at + self.dims].fill(digits[0]);
                 right[at..at + self.dims].fill(digits[1]);
-                indices[at..at + self.dims].fill(index);
                 digits = self.shuffle.next(digits);
-                index += 1;
             }
             let (left, right) = (&mut left[..places], &mut right[..places]);
             self.shuffle.images(left, right, [&first[..places], &step[..places]]);
-            place(self.cells, [&indices, &self.places[0], &self.places[1]], left, out);
+            place(self.cells, &mut words, &steps, left, out);
         }
+    }
+
+    /// The words of some rows from `start` on.
+    fn words(&self, start: u64) -> Vec<u64> {
+        let word = |(place, stride): (&u64, &u64)| place.wrapping_add(stride.wrapping_mul(start));
+        self.places.iter().zip(&self.strides).map(word).collect()
+    }
+
+    /// What the words grow by in some rows.
+    fn steps(&self, rows: u64) -> Vec<u64> {
+        self.strides.iter().map(|stride| stride.wrapping_mul(rows)).collect()
     }
 }
 
@@ -106,7 +124,8 @@ impl PointSet for LatinHypercube {
         assert!(dim < self.dims, "dimension {dim} of {}", self.dims);
         let keys = [self.permutations[0][dim], self.permutations[1][dim]];
         let cell = self.shuffle.image(index, keys);
-        unit_f64(self.cells.place(cell as u32, counted(index, self.places[0][dim], self.places[1][dim])))
+        let word = self.places[dim].wrapping_add(self.strides[dim].wrapping_mul(index));
+        unit_f64(self.cells.place(cell as u32, mix(word)))
     }
 
     fn fill(&self, rows: Range<u64>, out: &mut [f64]) {
@@ -119,15 +138,14 @@ impl PointSet for LatinHypercube {
 }
 
 for_this_machine! {
-    /// Slices to coordinates. `keys` are the index and the two keys of each place.
-    place = place_body<T: Unit>(cells: Cells, keys: [&[u64]; 3], slices: &[u32], out: &mut [T])
+    /// Slices to coordinates; the words move on.
+    place = place_body<T: Unit>(cells: Cells, words: &mut [u64], steps: &[u64], slices: &[u32], out: &mut [T])
 }
 
 #[inline(always)]
-fn place_body<T: Unit>(cells: Cells, [indices, first, second]: [&[u64]; 3], slices: &[u32], out: &mut [T]) {
-    for ((((x, &slice), &index), &first), &second) in
-        out.iter_mut().zip(slices).zip(indices).zip(first).zip(second)
-    {
-        *x = T::from_word(cells.place(slice, counted(index, first, second)));
+fn place_body<T: Unit>(cells: Cells, words: &mut [u64], steps: &[u64], slices: &[u32], out: &mut [T]) {
+    for (((x, &slice), word), &step) in out.iter_mut().zip(slices).zip(words).zip(steps) {
+        *x = T::from_word(cells.place(slice, mix(*word)));
+        *word = word.wrapping_add(step);
     }
 }
