@@ -79,7 +79,7 @@ def test_a_product_of_one_triangle_is_balanced_as_the_sequence() -> None:
     x = warp.triangle_product(64, corners, seed=2)
     assert x.shape == (64, 3, 3)
     for factor in range(3):
-        cells = np.sort(np.floor(warp.TriangleBase4().invert(x[:, factor])[:, 0] * 64))
+        cells = np.sort(np.floor(warp.TriangleQuaternary().invert(x[:, factor])[:, 0] * 64))
         np.testing.assert_array_equal(cells, np.arange(64))
     np.testing.assert_array_equal(warp.triangle_product(10, corners, start=20, seed=2), x[20:30])
 

@@ -26,7 +26,7 @@ from .directions import Cap, HemisphereCosine, HemisphereUniform, Sphere, Spheri
 from .distributions import Discrete, DiscreteAlias, Frozen, Gaussian, Image, PiecewiseConstant, PiecewiseLinear
 from .solids import Ball, Cylinder, DiskConcentric, DiskPolar, Simplex, Torus
 from .triangle import triangle_kronecker, triangle_product, triangle_van_der_corput
-from .triangle_maps import TriangleBase4, TriangleHeitz, TriangleMirror, TriangleRoot, TriangleSort
+from .triangle_maps import TriangleHeitz, TriangleMirror, TriangleQuaternary, TriangleRoot, TriangleSort
 
 __all__ = [
     "WARPS",
@@ -52,9 +52,9 @@ __all__ = [
     "SphericalRectangle",
     "SphericalTriangle",
     "Torus",
-    "TriangleBase4",
     "TriangleHeitz",
     "TriangleMirror",
+    "TriangleQuaternary",
     "TriangleRoot",
     "TriangleSort",
     "Warp",
@@ -80,7 +80,7 @@ WARPS: dict[str, type[Warp]] = {
         TriangleHeitz,
         TriangleMirror,
         TriangleSort,
-        TriangleBase4,
+        TriangleQuaternary,
         Hilbert,
         Morton,
         Gray,

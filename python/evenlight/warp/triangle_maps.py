@@ -2,7 +2,7 @@
 
 from .base import Warp
 
-__all__ = ["TriangleBase4", "TriangleHeitz", "TriangleMirror", "TriangleRoot", "TriangleSort"]
+__all__ = ["TriangleHeitz", "TriangleMirror", "TriangleQuaternary", "TriangleRoot", "TriangleSort"]
 
 
 class TriangleRoot(Warp):
@@ -75,7 +75,7 @@ class TriangleSort(Warp):
     warp = "triangle_sort"
 
 
-class TriangleBase4(Warp):
+class TriangleQuaternary(Warp):
     """The interval to a triangle: digits in base 4 choose nested triangles. One to one, but not continuous.
 
     Notes
@@ -86,9 +86,9 @@ class TriangleBase4(Warp):
     Examples
     --------
     >>> from evenlight import warp
-    >>> 6 * warp.TriangleBase4().map([[0.25], [0.5]])
+    >>> 6 * warp.TriangleQuaternary().map([[0.25], [0.5]])
     array([[4., 1., 1.],
            [1., 4., 1.]])
     """
 
-    warp = "triangle_base4"
+    warp = "triangle_quaternary"

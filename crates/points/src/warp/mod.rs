@@ -34,9 +34,9 @@ pub mod spherical_triangle;
 mod steps;
 pub mod torus;
 pub mod triangle;
-pub mod triangle_base4;
 pub mod triangle_heitz;
 pub mod triangle_mirror;
+pub mod triangle_quaternary;
 pub mod triangle_root;
 pub mod triangle_sort;
 
@@ -81,7 +81,7 @@ pub static ALL: &[&Entry] = &[
     &triangle_heitz::ENTRY,
     &triangle_mirror::ENTRY,
     &triangle_sort::ENTRY,
-    &triangle_base4::ENTRY,
+    &triangle_quaternary::ENTRY,
     &hilbert::ENTRY,
     &morton::ENTRY,
     &gray::ENTRY,

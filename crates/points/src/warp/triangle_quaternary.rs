@@ -7,18 +7,18 @@ use super::triangle::digits;
 use super::{Entry, Fixed, Real, Warp};
 
 pub(super) const ENTRY: Entry = Entry {
-    name: "triangle_base4",
+    name: "triangle_quaternary",
     cite: "K. Basu and A. B. Owen, Low discrepancy constructions in the triangle, SIAM J. Numer. Anal. 53(2), 743-761 (2015)",
     takes: &[],
     folds: false,
-    build: |_| Ok(Box::new(Fixed::<_, 1, 3>(TriangleBase4))),
+    build: |_| Ok(Box::new(Fixed::<_, 1, 3>(TriangleQuaternary))),
 };
 
 /// The recursive map of digits to triangles.
 #[derive(Clone, Copy, Debug)]
-pub struct TriangleBase4;
+pub struct TriangleQuaternary;
 
-impl<T: Real> Warp<T, 1> for TriangleBase4 {
+impl<T: Real> Warp<T, 1> for TriangleQuaternary {
     type Point = [T; 3];
 
     #[inline]
