@@ -10,7 +10,7 @@ import pytest
 from scipy import stats
 from scipy.stats import qmc, sampling
 
-from conftest import fitting_dims
+from conftest import fitting_count, fitting_dims
 from evenlight.points import SEQUENCES, Sobol
 
 N = 1024
@@ -25,9 +25,9 @@ def kolmogorov(sample: Any, cdf: Any) -> float:
 @pytest.mark.filterwarnings("ignore:.*are balanced in powers of.*:UserWarning")
 def test_inversion_by_polynomials(name: str) -> None:
     normal: Any = stats.norm()
-    drawn: Any = sampling.NumericalInversePolynomial(normal).qrvs(
-        N, qmc_engine=SEQUENCES[name](fitting_dims(name, 2), seed=3)
-    )
+    d = fitting_dims(name, 2)
+    engine = SEQUENCES[name](d, seed=3, **fitting_count(name, d, N))
+    drawn: Any = sampling.NumericalInversePolynomial(normal).qrvs(N, qmc_engine=engine)
     assert kolmogorov(drawn.reshape(N, -1)[:, 0], stats.norm.cdf) < 2.7
 
 

@@ -4,6 +4,7 @@
 
 use std::time::Instant;
 
+use evenlight_points::sequences::sobol::direction_numbers;
 use evenlight_points::sequences::{self, Options, Spec};
 use evenlight_points::{Error, Seed};
 
@@ -18,7 +19,8 @@ fn main() -> Result<(), Error> {
         for scramble in entry.accepts {
             print!("{:<28}", format!("{} / {}", entry.name, scramble.name()));
             for dims in [2, 8, 64, 1024].map(|dims: usize| dims.min(entry.most_dims)) {
-                let options = Options { n: count(entry.name, dims), ..Options::default() };
+                let n = count(entry.name, dims);
+                let options = Options { n, matrices: matrices(entry.name, dims), ..Options::default() };
                 let spec = Spec { options, ..Spec::new(dims, *scramble, Seed::new(1)) };
                 let points = sequences::build(entry.name, &spec)?;
                 if points.len().is_some_and(|len| len < (COORDINATES / dims) as u64) {
@@ -38,15 +40,22 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
+/// Sobol' matrices for the nets that must be given theirs.
+fn matrices(sequence: &str, dims: usize) -> Option<Vec<Vec<u64>>> {
+    (sequence == "digital_net").then(|| (0..dims).map(|dim| direction_numbers(dim).to_vec()).collect())
+}
+
 /// The number of points of the finite sets: about as many as there are coordinates.
 fn count(sequence: &str, dims: usize) -> Option<u64> {
     match (sequence, dims) {
-        ("latin_hypercube" | "multi_jittered" | "correlated_multi_jittered" | "hammersley", _)
+        (
+            "latin_hypercube" | "multi_jittered" | "correlated_multi_jittered" | "hammersley" | "korobov",
+            _,
+        )
         | ("stratified", 2) => Some(1 << 20),
         ("stratified", 8) => Some(6_u64.pow(8)),
         ("stratified", _) => Some(1), // there is no grid
         ("orthogonal_array", _) => Some(1031 * 1031),
-        ("korobov", _) => Some(1 << 20),
         ("fibonacci", _) => Some(1_346_269),
         _ => None,
     }

@@ -3,4 +3,5 @@
 pub(crate) mod direction_numbers;
 #[cfg(feature = "std")]
 pub(crate) mod generating_vectors;
+#[cfg(feature = "std")]
 pub(crate) mod niederreiter_xing;

@@ -7,9 +7,9 @@
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::{
-    __m256, _CMP_EQ_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_fmsub_ps,
-    _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_set1_ps,
-    _mm256_storeu_ps, _mm256_sub_ps,
+    __m256, _CMP_EQ_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_fmadd_ps,
+    _mm256_fmsub_ps, _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
 };
 
 /// Lanes per vector.
@@ -37,6 +37,8 @@ pub(super) trait Lanes: Copy {
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
     fn div(self, other: Self) -> Self;
+    /// `self * factor + term`; fused or not.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
     /// `self * factor - term`; fused or not.
     fn mul_sub(self, factor: Self, term: Self) -> Self;
     fn min(self, other: Self) -> Self;
@@ -100,8 +102,13 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn mul_sub(self, factor: Self, term: Self) -> Self {
+    fn mul_add(self, factor: Self, term: Self) -> Self {
         // Not f32::mul_add: without the instruction that is a slow library call.
+        self.mul(factor).add(term)
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, factor: Self, term: Self) -> Self {
         self.mul(factor).sub(term)
     }
 
@@ -186,6 +193,7 @@ impl Lanes for Avx {
         sub(other) = _mm256_sub_ps;
         mul(other) = _mm256_mul_ps;
         div(other) = _mm256_div_ps;
+        mul_add(factor, term) = _mm256_fmadd_ps;
         mul_sub(factor, term) = _mm256_fmsub_ps;
         min(other) = _mm256_min_ps;
         max(other) = _mm256_max_ps;

@@ -69,15 +69,18 @@ impl Node {
 
 /// A ray prepared for the slab test, conservative against rounding.
 ///
-/// A plane is met at `plane · inverse - shift`. What is lost to rounding there is relative to the scene's size, and every slab
-/// grows by a margin of some more. The rest is relative to the distance: growing the far distances by `1 + 2⁻²⁰` leaves more
+/// `(plane - origin) / direction` carries at most three roundings, so growing the far distances by `1 + 2⁻²⁰` leaves more
 /// room than the `1 + 2γ(3)` of Ize 2013 ("Robust BVH Ray Traversal", JCGT 2(2)), and covers the few roundings of the sheared
-/// vertices too. Where a direction component is (almost) zero its inverse is capped, and the margin outweighs the cap over the
-/// whole scene; thus a ray that lies in a plane of a box is inside, and no 0·∞ ever arises.
+/// vertices too. Where a direction component is (almost) zero its inverse is capped, and the slab grows by a margin that
+/// outweighs the cap over the whole scene; thus a ray that lies in a plane of a box is inside, and no 0·∞ ever arises.
+///
+/// The origin is subtracted first, although `plane · inverse - shift` would save an instruction: a ray that leaves a huge level
+/// surface must miss its flat box by the ray's own offset, which is nothing compared with the coordinates.
 pub(super) struct SlabRay {
+    origin: [f32; 3],
     inverse: [f32; 3],
-    near_shift: [f32; 3],
-    far_shift: [f32; 3],
+    inverse_far: [f32; 3],
+    margin: [f32; 3],
     /// Which of `planes` comes first on each axis, as the ray flies.
     near: [u32; 3],
 }
@@ -85,23 +88,21 @@ pub(super) struct SlabRay {
 /// How much distances grow so that no rounding cuts off a box.
 pub(super) const GROW: f32 = 1.0 + 1.0 / (1 << 20) as f32;
 
-/// How much slabs grow on each side, relative to the greatest coordinates: some multiples of what rounding takes.
-const MARGIN: f32 = 1.0 / (1 << 21) as f32;
-
 impl SlabRay {
     /// `extent` bounds the absolute value of all coordinates of the scene.
     #[inline(always)]
     pub(super) fn new(ray: &Ray, extent: f32) -> Self {
         const CAP: f32 = (1_u64 << 40) as f32;
         let steepest = ray.direction.abs().max_element();
+        // Within the scene t · steepest stays below 2 · reach, hence the capped ray strays by less than 2 · reach / CAP.
         let reach = extent + ray.origin.abs().max_element();
         let inverse =
             (Vec3::ONE / ray.direction.abs().max(Vec3::splat(steepest / CAP))).copysign(ray.direction);
-        let (shift, margin) = (ray.origin * inverse, inverse.abs() * (MARGIN * reach));
         Self {
+            origin: ray.origin.to_array(),
             inverse: inverse.to_array(),
-            near_shift: (shift + margin).to_array(),
-            far_shift: (shift - margin).to_array(),
+            inverse_far: (inverse * GROW).to_array(),
+            margin: (inverse.abs() * (4.0 / CAP * reach)).to_array(),
             near: [
                 u32::from(inverse.x < 0.0),
                 2 + u32::from(inverse.y < 0.0),
@@ -120,7 +121,7 @@ impl SlabRay {
         unsafe {
             let (x, y, z) = (self.slab::<L>(node, 0), self.slab::<L>(node, 1), self.slab::<L>(node, 2));
             let entry = x.0.max(y.0).max(z.0.max(L::splat(0.0)));
-            let exit = x.1.min(y.1).min(z.1.min(L::splat(t_max))).mul(L::splat(GROW));
+            let exit = x.1.min(y.1).min(z.1.min(L::splat(t_max * GROW)));
             (entry.le(exit), entry)
         }
     }
@@ -135,11 +136,12 @@ impl SlabRay {
         // SAFETY: `near` is below 6 and so is its partner; the caller promises the CPU.
         unsafe {
             let planes = &node.planes;
-            let at = |plane: usize| L::load(planes.get_unchecked(plane).as_ptr());
-            let inverse = L::splat(self.inverse[axis]);
+            let origin = L::splat(self.origin[axis]);
+            let from_origin = |plane: usize| L::load(planes.get_unchecked(plane).as_ptr()).sub(origin);
+            let margin = L::splat(self.margin[axis]);
             (
-                at(near).mul_sub(inverse, L::splat(self.near_shift[axis])),
-                at(near ^ 1).mul_sub(inverse, L::splat(self.far_shift[axis])),
+                from_origin(near).mul_sub(L::splat(self.inverse[axis]), margin),
+                from_origin(near ^ 1).mul_add(L::splat(self.inverse_far[axis]), margin),
             )
         }
     }
