@@ -1,4 +1,4 @@
-"""Rates of convergence: the fit against made-up errors, and the keynote's table within 0.1 of theory."""
+"""Rates of convergence: the fit against made-up errors, and a table of them within 0.1 of theory."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from evenlight.points import Independent, InterlacedSobol, Sobol
 
 
 @pytest.mark.parametrize("case", lab.RATE_CASES, ids=lambda case: case.label)
-def test_the_keynotes_table_of_rates(case: lab.RateCase) -> None:
+def test_the_table_of_rates(case: lab.RateCase) -> None:
     """Slopes have standard errors of 0.02 to 0.04: seeds are fixed, and the table holds as it stands."""
     measured = lab.rates(case.f, case.points, **case.settings)
     print(f"{case.label}: {measured.slope:.3f} ± {measured.slope_error:.3f} (theory {case.theory:.3f})")

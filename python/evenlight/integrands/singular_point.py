@@ -1,4 +1,4 @@
-"""The singularity of the keynote: unbounded at a point inside, square-integrable by a hair."""
+"""The singularity of He and Owen (2014): unbounded at a point inside, square-integrable by a hair."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """The laboratory: claims of the field as experiments that can be run and judged."""
 
-from .keynote_mixtures import MixtureProblem, rare_event, singularity
-from .keynote_rates import RATE_CASES, RateCase, keynote_rates
+from .mixture_problems import MixtureProblem, rare_event, singularity
 from .rates import Rates, rates
+from .rates_table import RATE_CASES, RateCase, rates_table
 from .variance_constants import VarianceConstants, variance_constants
 
 __all__ = [
@@ -11,9 +11,9 @@ __all__ = [
     "RateCase",
     "Rates",
     "VarianceConstants",
-    "keynote_rates",
     "rare_event",
     "rates",
+    "rates_table",
     "singularity",
     "variance_constants",
 ]

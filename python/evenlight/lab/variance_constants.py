@@ -8,7 +8,7 @@ import numpy as np
 
 from evenlight.importance.mixture import Mixture
 from evenlight.integrate import integrate
-from evenlight.lab.keynote_mixtures import Array, MixtureProblem
+from evenlight.lab.mixture_problems import Array, MixtureProblem
 from evenlight.points import Sobol
 
 __all__ = ["VarianceConstants", "variance_constants"]

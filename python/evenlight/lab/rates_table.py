@@ -1,4 +1,4 @@
-"""The keynote's table of rates, measured: how fast errors fall for which points and which integrands."""
+"""A table of rates, measured: how fast errors fall for which points and which integrands."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from evenlight import integrands
 from evenlight.lab.rates import Rates, rates
 from evenlight.points import Halton, Independent, Sobol
 
-__all__ = ["RATE_CASES", "RateCase", "keynote_rates"]
+__all__ = ["RATE_CASES", "RateCase", "rates_table"]
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ RATE_CASES: tuple[RateCase, ...] = (
 """The lines of the table."""
 
 
-def keynote_rates() -> list[tuple[RateCase, Rates]]:
+def rates_table() -> list[tuple[RateCase, Rates]]:
     """Measure every line of the table: a few seconds.
 
     Returns
