@@ -16,7 +16,11 @@ pub(crate) use crate::unit::{Digits, Unit};
 /// ```
 #[inline]
 pub fn unit_f64(word: u64) -> f64 {
-    (word >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+    // The upper half of the word after 2^20, the next 21 bits after 1/2: additions of exact numbers, which all vector units
+    // have, where only the newest convert 64-bit integers.
+    let upper = f64::from_bits(word >> 32 | (1023 + 20) << 52);
+    let lower = f64::from_bits((word & 0xffff_ffff) >> 11 | (1023 - 1) << 52);
+    (upper - (f64::from(1 << 20) + 0.5)) + lower
 }
 
 /// The upper 24 bits of a word as a number in [0, 1).
@@ -46,6 +50,21 @@ pub fn truncate_to_f32(unit: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn doubles_are_the_upper_53_bits() {
+        for word in (0..10_000).map(crate::seed::mix).chain([
+            0,
+            1,
+            u64::MAX,
+            1 << 63,
+            1 << 11,
+            (1 << 32) - 1,
+            1 << 32,
+        ]) {
+            assert_eq!(unit_f64(word), (word >> 11) as f64 / (1_u64 << 53) as f64, "{word}");
+        }
+    }
 
     #[test]
     fn words_near_the_end_stay_below_one_and_in_their_intervals() {

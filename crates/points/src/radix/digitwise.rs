@@ -4,8 +4,9 @@
 //! whole block of rows. A shift modulo 1 is one more addend.
 
 use super::permutations::permutation;
-use super::places::{LINE, Places, TABULATED, line, product_high, unit};
+use super::places::{LINE, Places, TABULATED, line, product_high};
 use crate::Seed;
+use crate::convert::unit_f64;
 use crate::instruction_sets::for_this_machine;
 use crate::scramble::Randomization;
 use crate::shuffle::{Keys, Shuffle, keys};
@@ -104,7 +105,7 @@ for_this_machine! {
 #[inline(always)]
 fn finish_body(addend: u64, words: &[u64], out: &mut [f64]) {
     for (out, words) in out.chunks_mut(LINE).zip(words.chunks(LINE)) {
-        let units = line(words).map(|word| unit(word.wrapping_add(addend)));
+        let units = line(words).map(|word| unit_f64(word.wrapping_add(addend)));
         out.copy_from_slice(&units[..out.len()]);
     }
 }

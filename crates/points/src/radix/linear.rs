@@ -4,9 +4,10 @@
 //! and high digits contribute a sum without carry: the sum of two fractions, from which a digit that became too
 //! large takes the base again. So a coordinate costs a comparison for each high digit.
 
-use super::places::{LINE, Places, line, product_high, unit};
+use super::places::{LINE, Places, line, product_high};
 use super::prefixes::Prefixes;
 use crate::Seed;
+use crate::convert::unit_f64;
 use crate::instruction_sets::for_this_machine;
 use crate::scramble::Randomization;
 
@@ -139,7 +140,7 @@ fn finish_body(addend: &Addend, cell: u64, images: &Prefixes, first: usize, out:
         }
         let mut units = [0.0; LINE];
         for ((x, word), sum) in units.iter_mut().zip(line(words)).zip(sums) {
-            *x = unit(word + product_high(sum, cell));
+            *x = unit_f64(word + product_high(sum, cell));
         }
         out.copy_from_slice(&units[..out.len()]);
     }

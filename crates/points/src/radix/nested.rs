@@ -12,8 +12,9 @@
 //! and σ is uniform too.
 
 use super::permutations::images as permuted;
-use super::places::{LINE, Places, line, product, product_high, unit};
+use super::places::{LINE, Places, line, product, product_high};
 use crate::Seed;
+use crate::convert::unit_f64;
 use crate::instruction_sets::for_this_machine;
 use crate::primes::is_prime;
 use crate::scramble::Randomization;
@@ -171,7 +172,7 @@ fn finish_body(digits: &[Digit], cell: u64, words: &[u64], fractions: &[u64], ou
         }
         let mut units = [0.0; LINE];
         for ((x, word), sum) in units.iter_mut().zip(line(words)).zip(sums) {
-            *x = unit(word + product_high(sum, cell));
+            *x = unit_f64(word + product_high(sum, cell));
         }
         out.copy_from_slice(&units[..out.len()]);
     }

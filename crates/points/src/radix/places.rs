@@ -114,15 +114,6 @@ pub(super) fn product_high(x: u64, y: u64) -> u64 {
     product(x1, y1) + (product(x1, y) >> 32) + (product(x, y1) >> 32)
 }
 
-/// [`unit_f64`](crate::convert::unit_f64) in additions of exact numbers, which all vectors have: the upper half of the word after
-/// 2^20, the next 21 bits after 1/2.
-#[inline(always)]
-pub(super) fn unit(word: u64) -> f64 {
-    let upper = f64::from_bits(word >> 32 | (1023 + 20) << 52);
-    let lower = f64::from_bits((word & 0xffff_ffff) >> 11 | (1023 - 1) << 52);
-    (upper - (f64::from(1 << 20) + 0.5)) + lower
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,13 +129,6 @@ mod tests {
                 let exact = (u128::from(cell) << 64) / u128::from(places.rows);
                 assert_eq!(u128::from(places.edge(cell)), exact, "{base}, {cell}");
             }
-        }
-    }
-
-    #[test]
-    fn units_are_those_of_the_house() {
-        for word in (0..10_000).map(mix).chain([0, 1, u64::MAX, 1 << 63, 1 << 11, (1 << 32) - 1, 1 << 32]) {
-            assert_eq!(unit(word).to_bits(), crate::convert::unit_f64(word).to_bits(), "{word}");
         }
     }
 
