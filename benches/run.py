@@ -149,6 +149,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--report", type=Path, default=HERE / "RESULTS.md")
     options = parser.parse_args(arguments)
     folders = {path.parent.name: path.parent for path in sorted(scene_folder().glob("*/reference.npz"))}
+    if options.only != "points" and not folders:
+        parser.error("no scene with a reference.npz; set EVENLIGHT_SCENES to their folder")
     names = options.scenes or (list(folders) if options.all else MAIN_SCENES)
 
     raw = ROOT / "out" / "bench.json"
