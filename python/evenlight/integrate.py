@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import operator
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -12,6 +11,7 @@ from typing import Any, NoReturn, SupportsIndex
 import numpy as np
 from tqdm import tqdm
 
+from evenlight.arguments import integer
 from evenlight.estimate import Estimate, NotConvergedWarning
 from evenlight.integrand import Integrand
 from evenlight.intervals import check_level
@@ -109,7 +109,7 @@ def integrate(
     if domain is not None and domain.d != points.d:
         raise ValueError(f"the domain takes points of {domain.d} dimensions; {points!r} has {points.d}")
     kind = choose(method, points)
-    rule = kind(integrand, points, _whole("replicates", replicates, 1))
+    rule = kind(integrand, points, integer("replicates", replicates, 1))
     with _Bar(progress, goal.most) as bar:
         estimate = _exactly(rule, goal.most) if goal.fixed else _until(rule, points, goal, bar)
     diagnostics = dict(estimate.diagnostics)
@@ -138,7 +138,7 @@ class _Goal:
         if n is not None:
             if rtol is not None or atol is not None:
                 raise ValueError("n and a tolerance both say when to stop; give one of them")
-            return cls(_whole("n", n, 1), True, 0.0, 0.0, level)
+            return cls(integer("n", n, 1), True, 0.0, 0.0, level)
         if rtol is None and atol is None:
             raise ValueError("give n, the number of function values, or a tolerance: rtol or atol")
         for name, value in (("rtol", rtol), ("atol", atol)):
@@ -146,7 +146,7 @@ class _Goal:
                 raise ValueError(f"{name} must be at least 0, not {value}")
         if not (rtol or atol):
             raise ValueError("a tolerance of 0 is never reached; give rtol or atol above 0")
-        return cls(_whole("max_n", max_n, 1), False, rtol or 0.0, atol or 0.0, level)
+        return cls(integer("max_n", max_n, 1), False, rtol or 0.0, atol or 0.0, level)
 
     def reached(self, estimate: Estimate) -> bool:
         """Whether |value - truth| <= max(atol, rtol |truth|) as far as the interval can tell."""
@@ -212,13 +212,3 @@ class _Bar:
         if self._bar is not None:
             self._bar.set_postfix_str(f"error {relative:.2%}", refresh=False)
             self._bar.update(int(estimate.cost) - self._bar.n)
-
-
-def _whole(name: str, value: SupportsIndex, least: int) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
-    if number < least:
-        raise ValueError(f"{name} must be at least {least}, not {number}")
-    return number

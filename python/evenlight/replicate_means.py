@@ -45,6 +45,11 @@ class ReplicateMeans:
         while self.rows < rows:
             self._add(engine, self.rows, min(self.rows + block, rows))
 
+    def check_used(self) -> None:
+        """Raise a ValueError if nothing at all is known of a replicate."""
+        if not self.used.all():
+            raise ValueError(f"f is finite at none of {self.rows} points of replicate {int(self.used.argmin())}")
+
     def _add(self, engine: Any, start: int, stop: int) -> None:
         count = stop - start
         u = engine.points(start, stop, replicates=self.replicates).reshape(-1, int(engine.d))

@@ -1,20 +1,16 @@
 """What all sequences share: rows that are a pure function of their number, behind SciPy's protocol."""
 
-import operator
-import os
 import warnings
-from typing import Any, ClassVar, Literal, Self, SupportsIndex, TypeAlias
+from typing import Any, ClassVar, Literal, Self, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 from scipy.stats import qmc
 
 from evenlight import _core
+from evenlight.arguments import SeedLike, integer, seed_number, threads
 
 __all__ = ["Engine", "SeedLike"]
-
-SeedLike: TypeAlias = SupportsIndex | np.random.Generator | None
-"""A number from 0 on, a generator to draw one from, or None for 0."""
 
 _INDICES = 2**64
 
@@ -71,8 +67,8 @@ class Engine(qmc.QMCEngine):
     ) -> None:
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names for the same argument; give one of them")
-        dims = _integer("d", d, 0)
-        self.seed = _seed(rng if seed is None else seed)
+        dims = integer("d", d, 0)
+        self.seed = seed_number(rng if seed is None else seed)
         self.scramble = self._scramble(scramble)
         self._options: dict[str, Any] = {
             name: _plain(name, value) for name, value in options.items() if value is not None
@@ -140,7 +136,7 @@ class Engine(qmc.QMCEngine):
         (3, 8, 2)
         """
         first, last = self._rows(start, stop)
-        threads = _threads(workers)
+        count = threads(workers)
         shape: tuple[int, ...] = (last - first, int(self.d))
         if replicates is not None:
             shape = (self._replicates(replicates), *shape)
@@ -150,15 +146,15 @@ class Engine(qmc.QMCEngine):
         if self.d == 0:
             pass  # as in SciPy, points of no coordinates exist
         elif replicates is None:
-            self._core.fill(first, last, array, threads)
+            self._core.fill(first, last, array, count)
         else:
-            self._core.fill_replicates(self.seed, (first, last), shape[0], array, threads)
+            self._core.fill_replicates(self.seed, (first, last), shape[0], array, count)
         if out is not None:
             return out
         return array if xp is None or xp is np else xp.from_dlpack(array)
 
     def _rows(self, start: SupportsIndex, stop: SupportsIndex) -> tuple[int, int]:
-        first, last = _integer("start", start, 0), _integer("stop", stop, 0)
+        first, last = integer("start", start, 0), integer("stop", stop, 0)
         if not first <= last < _INDICES:
             raise ValueError(f"rows {first} to {last}: 0 <= start <= stop < 2^64 is needed")
         if self._core is None and self.d > 0:
@@ -168,7 +164,7 @@ class Engine(qmc.QMCEngine):
         return first, last
 
     def _replicates(self, replicates: SupportsIndex) -> int:
-        number = _integer("replicates", replicates, 1)
+        number = integer("replicates", replicates, 1)
         if not self.is_random:
             raise ValueError(f"{self!r} has no randomness to replicate; choose a scramble other than 'none'")
         return number
@@ -230,7 +226,7 @@ class Engine(qmc.QMCEngine):
         >>> all(abs(mean - 0.25) < 0.001 for mean in means)
         True
         """
-        number = _integer("r", r, 0)
+        number = integer("r", r, 0)
         self._replicates(1)
         return type(self)(**self._spec(), seed=_core.replicate_seed(self.seed, number))
 
@@ -247,7 +243,7 @@ class Engine(qmc.QMCEngine):
         Engine
             The engine itself.
         """
-        self.num_generated += _integer("n", n, 0)
+        self.num_generated += integer("n", n, 0)
         return self
 
     def reset(self) -> Self:
@@ -280,7 +276,7 @@ class Engine(qmc.QMCEngine):
         self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1
     ) -> npt.NDArray[np.float64]:
         del workers  # SciPy's own engines take it; here one core outruns the memory
-        rows = _integer("n", n, 0)
+        rows = integer("n", n, 0)
         if rows == 0 or self.d == 0:
             return np.empty((rows, self.d))
         if self._core is None:
@@ -325,30 +321,13 @@ class Engine(qmc.QMCEngine):
         return {"d": self.d, "scramble": self.scramble, **self._options}
 
 
-def _integer(name: str, value: SupportsIndex, least: int) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
-    if number < least:
-        raise ValueError(f"{name} must be at least {least}, not {number}")
-    return number
-
-
-def _threads(workers: SupportsIndex) -> int:
-    number = _integer("workers", workers, -1)
-    if number == 0:
-        raise ValueError("workers must be at least 1, or -1 for all processors, not 0")
-    return number if number > 0 else os.cpu_count() or 1
-
-
 def _plain(name: str, value: Any) -> Any:
     """Turn an option into the plain value it stands for: an integer, or lists of integers."""
     if isinstance(value, np.ndarray) and value.dtype.kind == "u":
         return value.tolist()
     if np.iterable(value) and not isinstance(value, str):
         return [_plain(name, part) for part in value]
-    return _integer(name, value, 0)
+    return integer(name, value, 0)
 
 
 def _writable(out: Any) -> npt.NDArray[Any]:
@@ -363,12 +342,3 @@ def _writable(out: Any) -> npt.NDArray[Any]:
     if not array.flags.writeable:
         raise TypeError(f"out must be writable; {type(out).__name__} exports itself as read-only")
     return array
-
-
-def _seed(seed: SeedLike) -> int:
-    if seed is None:
-        return 0
-    if isinstance(seed, np.random.Generator):
-        return int(seed.integers(_INDICES, dtype=np.uint64))
-    number = _integer("seed", seed, 0)
-    return number if number < _INDICES else int(np.random.SeedSequence(number).generate_state(1, np.uint64)[0])

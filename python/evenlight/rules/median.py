@@ -45,8 +45,7 @@ class Median:
     def estimate(self) -> Estimate:
         """The median of the replicates, and what its standard error is if they are normal."""
         state = self._replicates
-        if not state.used.all():
-            raise ValueError(f"f is finite at none of {state.rows} points of replicate {int(state.used.argmin())}")
+        state.check_used()
         value = np.median(state.means, axis=0)
         spread = 1.482602 * np.median(np.abs(state.means - value), axis=0)
         error = math.sqrt(math.pi / 2 / (state.replicates - 1)) * spread

@@ -40,8 +40,7 @@ class RandomizedQuasiMonteCarlo:
     def estimate(self) -> Estimate:
         """The mean of the replicates, and its standard error from their spread."""
         state = self._replicates
-        if not state.used.all():
-            raise ValueError(f"f is finite at none of {state.rows} points of replicate {int(state.used.argmin())}")
+        state.check_used()
         diagnostics = {"points": (repr(state.points),), "replicates": state.means}
         groups = ((state.rows, Moments.of(state.means)),)
         cost = float(state.rows * state.replicates)

@@ -1,19 +1,17 @@
 """What the faces of the warps check before the core works."""
 
 import operator
-import os
 from typing import Any, SupportsIndex, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from evenlight.arguments import SeedLike, seed_number, threads
+
 __all__ = ["Floats", "SeedLike", "integer", "real_array", "scramble_name", "seed_number", "threads"]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 """Double precision."""
-
-SeedLike: TypeAlias = SupportsIndex | np.random.Generator | None
-"""A number from 0 on, a generator to draw one from, or None for 0."""
 
 
 def integer(name: str, value: SupportsIndex, least: int, most: int = 2**64 - 1) -> int:
@@ -25,25 +23,6 @@ def integer(name: str, value: SupportsIndex, least: int, most: int = 2**64 - 1) 
     if not least <= number <= most:
         raise ValueError(f"{name} must be from {least} to {most}, not {number}")
     return number
-
-
-def seed_number(seed: SeedLike) -> int:
-    """Return a seed as a 64-bit number; larger ones are hashed."""
-    if seed is None:
-        return 0
-    if isinstance(seed, np.random.Generator):
-        return int(seed.integers(2**64, dtype=np.uint64))
-    if operator.index(seed) >= 2**64:
-        return int(np.random.SeedSequence(operator.index(seed)).generate_state(1, np.uint64)[0])
-    return integer("seed", seed, 0)
-
-
-def threads(workers: SupportsIndex) -> int:
-    """Return a number of threads; -1 is all processors."""
-    number = integer("workers", workers, -1)
-    if number == 0:
-        raise ValueError("workers must be at least 1, or -1 for all processors, not 0")
-    return number if number > 0 else os.cpu_count() or 1
 
 
 def scramble_name(scramble: str | bool | None) -> str:

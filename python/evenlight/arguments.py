@@ -1,0 +1,43 @@
+"""Arguments that many calls take: integers, seeds, numbers of threads; what is wrong with one is said by its name."""
+
+from __future__ import annotations
+
+import operator
+import os
+from typing import SupportsIndex, TypeAlias
+
+import numpy as np
+
+__all__ = ["SeedLike", "integer", "seed_number", "threads"]
+
+SeedLike: TypeAlias = SupportsIndex | np.random.Generator | None
+"""A number from 0 on, a generator to draw one from, or None for 0."""
+
+
+def integer(name: str, value: SupportsIndex, least: int) -> int:
+    """Return an integer of at least so much, or say which argument is none."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
+    if number < least:
+        raise ValueError(f"{name} must be at least {least}, not {number}")
+    return number
+
+
+def seed_number(seed: SeedLike) -> int:
+    """Return a seed as a 64-bit number; larger ones are hashed."""
+    if seed is None:
+        return 0
+    if isinstance(seed, np.random.Generator):
+        return int(seed.integers(2**64, dtype=np.uint64))
+    number = integer("seed", seed, 0)
+    return number if number < 2**64 else int(np.random.SeedSequence(number).generate_state(1, np.uint64)[0])
+
+
+def threads(workers: SupportsIndex) -> int:
+    """Return a number of threads; -1 is all processors."""
+    number = integer("workers", workers, -1)
+    if number == 0:
+        raise ValueError("workers must be at least 1, or -1 for all processors, not 0")
+    return number if number > 0 else os.cpu_count() or 1
