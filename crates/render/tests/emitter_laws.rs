@@ -159,10 +159,17 @@ impl Case {
 
     /// A sample that nothing hides.
     fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
-        let sample = self.light().sample(self.from, u)?;
+        let sample = sample(self.light(), self.from, u)?;
         let (_, distance) = self.look(sample.direction)?;
         (sample.distance <= 1.001 * distance).then_some(sample)
     }
+}
+
+/// A sample of a light, in all its steps.
+fn sample(light: &dyn Emitter, from: Vec3, u: [f32; 2]) -> Option<LightSample> {
+    let mut aim = light.aim(u);
+    light.aim_closer(&mut aim);
+    light.sample(from, aim)
 }
 
 const BINS: (usize, usize) = (16, 24);
@@ -255,7 +262,7 @@ fn a_ray_finds_what_was_sampled() {
         let mut random = Random(7);
         let mut compared = 0;
         for _ in 0..3000 {
-            let Some(sample) = case.light().sample(case.from, random.pair()) else { continue };
+            let Some(sample) = sample(case.light(), case.from, random.pair()) else { continue };
             assert!((sample.direction.length() - 1.0).abs() < 1e-5 && !sample.delta, "{}", case.name);
             let Some((hit, distance)) = case.look(sample.direction) else { continue };
             let cosine = -hit.normal.dot(sample.direction);
@@ -283,7 +290,7 @@ fn a_ray_finds_what_was_sampled() {
 fn the_dark_side_is_dark() {
     for case in cases().iter().filter(|case| case.reaching == Some(0.0)) {
         let mut random = Random(3);
-        assert!((0..1000).all(|_| case.light().sample(case.from, random.pair()).is_none()), "{}", case.name);
+        assert!((0..1000).all(|_| sample(case.light(), case.from, random.pair()).is_none()), "{}", case.name);
     }
 }
 
@@ -296,7 +303,7 @@ fn extremes_give_finite_numbers() {
         // also from points on the light, in its plane and at its center
         for from in [case.from, Vec3::ZERO, Vec3::new(0.3, -0.2, 0.5), Vec3::X, Vec3::new(1e6, 1e6, 0.0)] {
             for u in edges.iter().flat_map(|&a| edges.map(|b| [a, b])) {
-                let Some(sample) = case.light().sample(from, u) else { continue };
+                let Some(sample) = sample(case.light(), from, u) else { continue };
                 let finite = sample.direction.is_finite() && sample.radiance.is_finite();
                 let density = sample.density > 0.0 && sample.density.is_finite();
                 assert!(finite && density, "{} from {from}: {sample:?}", case.name);
@@ -315,7 +322,7 @@ fn spot_light_falls_off_linearly_with_the_angle() {
         [(0.0_f32, 1.0), (29.9, 1.0), (32.5, 0.75), (35.0, 0.5), (39.0, 0.1), (40.1, 0.0)]
     {
         let from = from_angles(degrees.to_radians().cos(), 1.0) * 2.0;
-        let light = scene.emitters[0].sample(from, [0.5; 2]);
+        let light = sample(&*scene.emitters[0], from, [0.5; 2]);
         let ours = light.map_or(0.0, |light| light.radiance.x);
         assert!((ours - 6.0 * falloff / 4.0).abs() < 2e-4, "{degrees}: {ours}");
     }
@@ -325,7 +332,7 @@ fn spot_light_falls_off_linearly_with_the_angle() {
 fn distant_spheres_keep_their_solid_angle() {
     let scene = stage::scene(&format!("<shape type='sphere'>{RADIANCE}</shape>"));
     for distance in [2.0_f32, 30.0, 1e3, 1e5] {
-        let sample = scene.emitters[0].sample(Vec3::X * distance, [0.5; 2]).expect("it is seen");
+        let sample = sample(&*scene.emitters[0], Vec3::X * distance, [0.5; 2]).expect("it is seen");
         let sine_squared = f64::from(distance).powi(-2);
         let solid_angle = 2.0 * std::f64::consts::PI * sine_squared / (1.0 + (1.0 - sine_squared).sqrt());
         assert!((f64::from(sample.density) * solid_angle - 1.0).abs() < 1e-5, "{distance}: {sample:?}");

@@ -4,7 +4,7 @@
 
 mod stage;
 
-use evenlight_render::emitter::EmitterHit;
+use evenlight_render::emitter::{Aim, EmitterHit};
 use evenlight_render::geometry::{Ray, Vec2, Vec3};
 
 const REFERENCE: &str = include_str!("data/scene_reference.csv");
@@ -96,7 +96,7 @@ fn delta_lights_agree_with_mitsuba() {
     judge("light", SINGLE, |case| {
         let scene = stage::scene(case.xml);
         let row = |row: &Vec<f32>| {
-            let Some(light) = scene.emitters[0].sample(vector(row, 0), [0.3, 0.6]) else {
+            let Some(light) = scene.emitters[0].sample(vector(row, 0), Aim::at([0.3, 0.6])) else {
                 return [vec![0.0; 3], row[7..].to_vec()];
             };
             assert!(light.delta && light.density == 1.0);

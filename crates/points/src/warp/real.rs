@@ -127,8 +127,11 @@ pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     let x2 = x * x;
     let sin = x + x * x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 - x2 * (1.0 / 5040.0 - x2 * (1.0 / 362_880.0))));
     let cos = 1.0 - x2 * (0.5 - x2 * (1.0 / 24.0 - x2 * (1.0 / 720.0 - x2 * (1.0 / 40_320.0))));
-    let (sin, cos) = if quarter & 1 == 0 { (sin, cos) } else { (cos, -sin) };
-    if quarter & 2 == 0 { (sin, cos) } else { (-sin, -cos) }
+    // Swapped in odd quarters, and signs changed, without branches: which quarter it is cannot be predicted.
+    let (sin, cos, quarter) = (sin.to_bits(), cos.to_bits(), quarter as u32);
+    let swap = (sin ^ cos) & 0_u32.wrapping_sub(quarter & 1);
+    let (sin, cos) = (sin ^ swap, cos ^ swap);
+    (f32::from_bits(sin ^ (quarter & 2) << 30), f32::from_bits(cos ^ (quarter + 1 & 2) << 30))
 }
 
 #[cfg(test)]

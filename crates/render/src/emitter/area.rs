@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
-use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::emitter::{Aim, Emitter, EmitterHit, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::Builder;
 use crate::scene::node::Node;
@@ -39,8 +39,8 @@ impl Area {
 
 impl Emitter for Area {
     #[inline]
-    fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightSample> {
-        let LightPoint { direction, distance, density, uv, .. } = self.geometry.sample(from, u)?;
+    fn sample(&self, from: Vec3, aim: Aim) -> Option<LightSample> {
+        let LightPoint { direction, distance, density, uv, .. } = self.geometry.sample(from, aim.u)?;
         Some(LightSample { direction, distance, radiance: self.radiance.evaluate(uv), density, delta: false })
     }
 

@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 use std::sync::Arc;
 
 use crate::Result;
-use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::emitter::{Aim, Emitter, EmitterHit, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance, sin_cos_turns};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -20,10 +20,11 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter
 }
 
 impl Emitter for Constant {
-    fn sample(&self, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
-        let z = 1.0 - 2.0 * u[0];
+    fn sample(&self, _: Vec3, aim: Aim) -> Option<LightSample> {
+        let [u, v] = aim.u;
+        let z = 1.0 - 2.0 * u;
         let ring = (1.0 - z * z).max(0.0).sqrt();
-        let (sin_phi, cos_phi) = sin_cos_turns(u[1]);
+        let (sin_phi, cos_phi) = sin_cos_turns(v);
         Some(LightSample {
             direction: Vec3::new(ring * cos_phi, ring * sin_phi, z),
             distance: f32::INFINITY,

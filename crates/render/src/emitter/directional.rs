@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::Result;
 use crate::emitter::placement::vector_or_transform;
-use crate::emitter::{Emitter, LightSample, SceneSphere};
+use crate::emitter::{Aim, Emitter, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -28,7 +28,7 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter
 }
 
 impl Emitter for Directional {
-    fn sample(&self, _: Vec3, _: [f32; 2]) -> Option<LightSample> {
+    fn sample(&self, _: Vec3, _: Aim) -> Option<LightSample> {
         Some(LightSample {
             direction: -self.direction,
             distance: f32::INFINITY,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::emitter::sky::{Sky, SkyPoint};
-use crate::emitter::{Emitter, EmitterHit, LightSample, SceneSphere};
+use crate::emitter::{Aim, Emitter, EmitterHit, LightSample, SceneSphere};
 use crate::geometry::{Mat3A, Rgb, Vec3, sin_cos_turns};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -69,9 +69,20 @@ impl Envmap {
 }
 
 impl Emitter for Envmap {
-    fn sample(&self, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
+    fn aim(&self, u: [f32; 2]) -> Aim {
+        let (tile, u) = self.sky.choose_tile(u);
+        Aim { part: [tile as u32, 0], u }
+    }
+
+    fn aim_closer(&self, aim: &mut Aim) {
+        let (cell, u) = self.sky.choose_cell(aim.part[0] as usize, aim.u);
+        *aim = Aim { part: [aim.part[0], cell as u32], u };
+    }
+
+    fn sample(&self, _: Vec3, aim: Aim) -> Option<LightSample> {
         let [width, rows] = self.sky.cells();
-        let point = self.sky.sample(u);
+        let [tile, cell] = aim.part.map(|part| part as usize);
+        let point = self.sky.point(tile, cell, aim.u);
         let (sin_theta, cos_theta) =
             sin_cos_turns(0.5 * (point.cell[1] as f32 + point.fraction[1]) / rows as f32);
         let (sin_phi, cos_phi) =
@@ -85,10 +96,6 @@ impl Emitter for Envmap {
             density,
             delta: false,
         })
-    }
-
-    fn prefetch(&self, u: [f32; 2]) {
-        self.sky.prefetch(u);
     }
 
     fn radiance(&self, hit: &EmitterHit) -> Rgb {

@@ -19,6 +19,23 @@ pub mod spot;
 pub static ALL: &[Entry<dyn Emitter>] =
     &[constant::ENTRY, directional::ENTRY, envmap::ENTRY, point::ENTRY, spot::ENTRY];
 
+/// Where on a light a sample will be taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim {
+    /// Which part of the light, and which part of that.
+    pub part: [u32; 2],
+    /// A point of the unit square that stands for the part.
+    pub u: [f32; 2],
+}
+
+impl Aim {
+    /// At a light that is in one part.
+    #[inline]
+    pub fn at(u: [f32; 2]) -> Self {
+        Self { part: [0; 2], u }
+    }
+}
+
 /// Light towards a receiver, from one sampled direction.
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample {
@@ -58,12 +75,19 @@ pub struct SceneSphere {
 
 /// A source of light.
 pub trait Emitter: Send + Sync {
-    /// Sample a direction from the receiver `from`.
-    fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<LightSample>;
-
-    /// Have fetched what [`Emitter::sample`] will need for the same `u`: a hint, given as early as possible.
+    /// The part of sampling that needs no receiver: `u` is a point of the unit square. What [`Emitter::aim_closer`] will need is
+    /// fetched from memory meanwhile.
     #[inline]
-    fn prefetch(&self, _u: [f32; 2]) {}
+    fn aim(&self, u: [f32; 2]) -> Aim {
+        Aim::at(u)
+    }
+
+    /// The rest of it; what [`Emitter::sample`] will need is fetched from memory meanwhile.
+    #[inline]
+    fn aim_closer(&self, _: &mut Aim) {}
+
+    /// Sample a direction from the receiver `from`, as aimed by [`Emitter::aim`] and [`Emitter::aim_closer`].
+    fn sample(&self, from: Vec3, aim: Aim) -> Option<LightSample>;
 
     /// Radiance leaving the hit against `hit.direction`; none from delta lights, which are never hit.
     fn radiance(&self, _hit: &EmitterHit) -> Rgb {

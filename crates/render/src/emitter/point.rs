@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::emitter::placement::vector_or_transform;
-use crate::emitter::{Emitter, LightSample, SceneSphere};
+use crate::emitter::{Aim, Emitter, LightSample, SceneSphere};
 use crate::geometry::{Rgb, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -24,7 +24,7 @@ fn build(properties: &Properties<'_>, _: &mut Builder) -> Result<Arc<dyn Emitter
 }
 
 impl Emitter for Point {
-    fn sample(&self, from: Vec3, _: [f32; 2]) -> Option<LightSample> {
+    fn sample(&self, from: Vec3, _: Aim) -> Option<LightSample> {
         let to_light = self.position - from;
         let distance_squared = to_light.length_squared();
         let distance = distance_squared.sqrt();

@@ -1,8 +1,9 @@
 //! The image of an environment map, with a density to sample it by: both in tiles, so that a sample waits for memory once.
 //!
-//! Cells lie between texel centers. A cell is chosen by inversion, so that stratified points stay stratified, in two levels: tiles of
-//! 8×8 cells through small guide tables that stay in the cache, then a cell of the tile, whose weights and texels lie together. With one
-//! search over all cells and a separate image, a third of a frame went by waiting for memory.
+//! Cells lie between texel centers. A cell is chosen by inversion, so that stratified points stay stratified, going down a tree of
+//! 8×8 weights: each choice compares eight running sums at once, without branches, and all levels but the last stay in the cache. There
+//! the weights and texels of 8×8 cells lie together. With one search over all cells and a separate image, a third of a frame went by
+//! waiting for memory.
 
 use glam::Vec4;
 
@@ -13,12 +14,26 @@ use crate::texture::image::Image;
 /// Cells along the side of a tile.
 const SIDE: usize = 8;
 
-/// 8×8 cells and the texels at their corners.
-struct Tile {
+/// Weights of 8×8 cells, or of 8×8 tables of the next level.
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+struct Table {
     /// Weights of the rows up to and including each.
     rows: [f32; SIDE],
     /// Weights of the cells up to and including each, within each row; cells outside of the image weigh nothing.
     cells: [[f32; SIDE]; SIDE],
+}
+
+/// Tables side by side that cover the image.
+struct Level {
+    /// Tables in a row.
+    columns: usize,
+    tables: Vec<Table>,
+}
+
+/// 8×8 cells and the texels at their corners.
+struct Tile {
+    weights: Table,
     /// Half-precision red, green and blue of each texel, row by row, and one number to spare: four are read at a time.
     texels: [u16; 3 * CORNERS * CORNERS + 1],
 }
@@ -34,8 +49,9 @@ pub(crate) struct Sky {
     /// Tiles in a row of tiles.
     columns: usize,
     tiles: Vec<Tile>,
-    lines: Vec<Inversion>,
-    marginal: Inversion,
+    /// From the one table at the top to those whose cells are tiles.
+    levels: Vec<Level>,
+    total: f32,
     /// What texels are to be multiplied by.
     scale: f32,
     /// Density of a cell of weight 1.
@@ -74,24 +90,18 @@ impl Sky {
                 let (x, y) = (left + number % CORNERS, top + number / CORNERS);
                 *half = (texel(x, y) / scale).to_array().map(to_half);
             }
-            let cells: [[f32; SIDE]; SIDE] =
-                std::array::from_fn(|y| running_sums(std::array::from_fn(|x| weight(left + x, top + y))));
-            Tile { rows: running_sums(cells.map(|row| row[SIDE - 1])), cells, texels }
+            Tile { weights: Table::new(|x, y| weight(left + x, top + y)), texels }
         };
         let tiles: Vec<Tile> = (0..columns * lines).map(tile).collect();
         use_large_pages(&tiles);
-        let lines: Vec<_> = tiles
-            .chunks_exact(columns)
-            .map(|line| Inversion::new(line.iter().map(|tile| tile.rows[SIDE - 1])))
-            .collect();
-        let marginal = Inversion::new(lines.iter().map(Inversion::total));
-        let per_weight = (width * rows) as f32 / marginal.total();
-        Self { width, rows, columns, tiles, lines, marginal, scale, per_weight }
+        let (levels, total) = levels_above(&tiles, columns);
+        let per_weight = (width * rows) as f32 / total;
+        Self { width, rows, columns, tiles, levels, total, scale, per_weight }
     }
 
     /// The sum of all weights.
     pub(crate) fn total_weight(&self) -> f32 {
-        self.marginal.total()
+        self.total
     }
 
     /// Columns and rows of cells.
@@ -123,38 +133,86 @@ impl Sky {
     #[inline]
     pub(crate) fn density(&self, point: &SkyPoint) -> f32 {
         let [x, y] = point.cell.map(|n| n % SIDE);
-        let row = &self.tile(point.cell).cells[y];
+        let row = &self.tile(point.cell).weights.cells[y];
         let below = if x == 0 { 0.0 } else { row[x - 1] };
         (row[x] - below) * self.per_weight
     }
 
-    /// The tile of a sample, and where in it.
+    /// The number of the tile that a sample leads to, and where in it; its weights are being fetched from memory.
     #[inline]
-    fn choose_tile(&self, u: [f32; 2]) -> ([usize; 2], [f32; 2]) {
-        let (line, within_y) = self.marginal.invert(u[1]);
-        let (column, within_x) = self.lines[line].invert(u[0]);
-        ([column, line], [within_x, within_y])
-    }
-
-    /// Have the tile fetched that [`Sky::sample`] will need for the same `u`.
-    #[inline]
-    pub(crate) fn prefetch(&self, u: [f32; 2]) {
-        let ([column, line], _) = self.choose_tile(u);
-        prefetch(&self.tiles[line * self.columns + column]);
-    }
-
-    /// A point of that density.
-    #[inline]
-    pub(crate) fn sample(&self, u: [f32; 2]) -> SkyPoint {
-        let ([column, line], [within_x, within_y]) = self.choose_tile(u);
-        let Tile { rows, cells, .. } = &self.tiles[line * self.columns + column];
-        let y = Chosen::among(rows, within_y);
-        let x = Chosen::among(&cells[y.number], within_x);
-        SkyPoint {
-            cell: [column * SIDE + x.number, line * SIDE + y.number],
-            fraction: [x.fraction, y.fraction],
+    pub(crate) fn choose_tile(&self, mut u: [f32; 2]) -> (usize, [f32; 2]) {
+        let [mut x, mut y] = [0, 0];
+        for level in &self.levels {
+            let chosen = level.tables[y * level.columns + x].choose(u);
+            [x, y] = [x * SIDE + chosen.cell[0], y * SIDE + chosen.cell[1]];
+            u = chosen.fraction;
         }
+        let number = y * self.columns + x;
+        prefetch(&self.tiles[number].weights);
+        (number, u)
     }
+
+    /// The number of the cell in a tile that a sample leads to, and where in it; its texels are being fetched from memory.
+    #[inline]
+    pub(crate) fn choose_cell(&self, tile: usize, within: [f32; 2]) -> (usize, [f32; 2]) {
+        let tile = &self.tiles[tile];
+        let SkyPoint { cell: [x, y], fraction } = tile.weights.choose(within);
+        for row in [y, y + 1] {
+            let texel = 3 * (row * CORNERS + x);
+            prefetch(&tile.texels[texel]);
+            prefetch(&tile.texels[texel + 5]);
+        }
+        (y * SIDE + x, fraction)
+    }
+
+    /// The point of which [`Sky::choose_tile`] and [`Sky::choose_cell`] told the parts; it has that density.
+    #[inline]
+    pub(crate) fn point(&self, tile: usize, cell: usize, fraction: [f32; 2]) -> SkyPoint {
+        let (column, line) = (tile % self.columns, tile / self.columns);
+        SkyPoint { cell: [column * SIDE + cell % SIDE, line * SIDE + cell / SIDE], fraction }
+    }
+}
+
+impl Table {
+    fn new(weight: impl Fn(usize, usize) -> f32) -> Self {
+        let row = |y: usize| running_sums(std::array::from_fn(|x| weight(x, y)));
+        let cells: [[f32; SIDE]; SIDE] = std::array::from_fn(row);
+        Self { rows: running_sums(cells.map(|row| row[SIDE - 1])), cells }
+    }
+
+    fn total(&self) -> f32 {
+        self.rows[SIDE - 1]
+    }
+
+    /// One of the cells, and where in it.
+    #[inline]
+    fn choose(&self, [u, v]: [f32; 2]) -> SkyPoint {
+        let (y, within_y) = choose_among(&self.rows, v);
+        let (x, within_x) = choose_among(&self.cells[y], u);
+        SkyPoint { cell: [x, y], fraction: [within_x, within_y] }
+    }
+}
+
+/// The levels above the tiles, and the weight of all.
+fn levels_above(tiles: &[Tile], mut columns: usize) -> (Vec<Level>, f32) {
+    let mut weights: Vec<f32> = tiles.iter().map(|tile| tile.weights.total()).collect();
+    let mut levels = Vec::new();
+    while weights.len() > 1 {
+        let lines = weights.len() / columns;
+        let weight =
+            |x: usize, y: usize| if x < columns && y < lines { weights[y * columns + x] } else { 0.0 };
+        let [across, down] = [columns, lines].map(|n| n.div_ceil(SIDE));
+        let table = |number: usize| {
+            let (left, top) = (number % across * SIDE, number / across * SIDE);
+            Table::new(|x, y| weight(left + x, top + y))
+        };
+        let tables: Vec<Table> = (0..across * down).map(table).collect();
+        weights = tables.iter().map(Table::total).collect();
+        columns = across;
+        levels.push(Level { columns, tables });
+    }
+    levels.reverse();
+    (levels, weights[0])
 }
 
 /// The largest finite number in half precision.
@@ -184,76 +242,24 @@ fn running_sums(mut numbers: [f32; SIDE]) -> [f32; SIDE] {
     numbers
 }
 
-/// A piecewise-constant density over equally long intervals, inverted with a guide table: it says where the search begins, and
-/// the search takes less than a step on average (Chen & Asau 1974, "On Generating Random Variates from an Empirical Distribution").
-struct Inversion {
-    /// Weights up to and including each interval.
-    cumulative: Vec<f32>,
-    /// Over equal parts of the unit interval, a power of two of them: the interval in which each part begins.
-    guide: Vec<u16>,
+/// The inverse of a short running sum: which part, and where in it, in [0, 1). All are compared at once, without branches to mispredict.
+#[inline(always)]
+fn choose_among(sums: &[f32; SIDE], u: f32) -> (usize, f32) {
+    let total = sums[SIDE - 1];
+    // rounding must not lead past the last one with weight
+    let target = at_most(u * total, total * BELOW_ONE);
+    let passed = (0..SIDE).fold(0_u32, |passed, i| passed | u32::from(sums[i] <= target) << i);
+    let number = (passed.trailing_ones() as usize).min(SIDE - 1);
+    let below = if number == 0 { 0.0 } else { sums[number - 1] };
+    let width = sums[number] - below;
+    let fraction = if width > 0.0 { (target - below) / width } else { 0.0 };
+    (number, at_most(fraction, BELOW_ONE))
 }
 
-impl Inversion {
-    fn new(weights: impl Iterator<Item = f32>) -> Self {
-        let mut sum = 0.0_f64;
-        let cumulative: Vec<f32> = weights
-            .map(|weight| {
-                sum += f64::from(weight);
-                sum as f32
-            })
-            .collect();
-        let parts = (2 * cumulative.len()).next_power_of_two();
-        let start = |part: usize| {
-            let target = part as f32 / parts as f32 * sum as f32;
-            cumulative.partition_point(|&sum| sum <= target).min(cumulative.len() - 1) as u16
-        };
-        let guide = (0..parts).map(start).collect();
-        Self { cumulative, guide }
-    }
-
-    #[inline]
-    fn total(&self) -> f32 {
-        self.cumulative[self.cumulative.len() - 1]
-    }
-
-    /// The chosen interval and where in it, in [0, 1).
-    #[inline]
-    fn invert(&self, u: f32) -> (usize, f32) {
-        // rounding must not lead past the last interval with weight
-        let target = (u * self.total()).min(self.total() * BELOW_ONE);
-        let mut number = usize::from(self.guide[(u * self.guide.len() as f32) as usize]);
-        while self.cumulative[number] <= target && number + 1 < self.cumulative.len() {
-            number += 1;
-        }
-        let below = if number == 0 { 0.0 } else { self.cumulative[number - 1] };
-        (number, fraction(target - below, self.cumulative[number] - below))
-    }
-}
-
-/// One of the rows or cells of a tile, and where in it.
-struct Chosen {
-    number: usize,
-    /// In [0, 1).
-    fraction: f32,
-}
-
-impl Chosen {
-    /// The inverse of a short running sum: compared all at once, without branches to mispredict.
-    #[inline]
-    fn among(sums: &[f32; SIDE], u: f32) -> Self {
-        // rounding must not lead past the last one with weight
-        let target = (u * sums[SIDE - 1]).min(sums[SIDE - 1] * BELOW_ONE);
-        let before = sums.iter().map(|&sum| i32::from(sum <= target)).sum::<i32>();
-        let number = (before as usize).min(SIDE - 1);
-        let below = if number == 0 { 0.0 } else { sums[number - 1] };
-        Self { number, fraction: fraction(target - below, sums[number] - below) }
-    }
-}
-
-/// `part / whole` in [0, 1).
-#[inline]
-fn fraction(part: f32, whole: f32) -> f32 {
-    (part / whole.max(f32::MIN_POSITIVE)).clamp(0.0, BELOW_ONE)
+/// The smaller of two numbers of which neither is NaN: one instruction.
+#[inline(always)]
+fn at_most(x: f32, limit: f32) -> f32 {
+    if x < limit { x } else { limit }
 }
 
 #[cfg(test)]
@@ -278,7 +284,9 @@ mod tests {
         let mut counts = vec![0.0_f32; 37 * 21];
         for i in 0..steps * steps {
             let u = [i / steps, i % steps].map(|n| (n as f32 + 0.5) / steps as f32);
-            let SkyPoint { cell: [x, y], fraction } = sky.sample(u);
+            let (tile, within) = sky.choose_tile(u);
+            let (cell, fraction) = sky.choose_cell(tile, within);
+            let SkyPoint { cell: [x, y], .. } = sky.point(tile, cell, fraction);
             assert!(fraction.iter().all(|f| (0.0..1.0).contains(f)));
             counts[y * 37 + x] += 1.0 / (steps * steps) as f32;
         }

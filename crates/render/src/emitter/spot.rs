@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 use std::sync::Arc;
 
 use crate::Result;
-use crate::emitter::{Emitter, LightSample, SceneSphere};
+use crate::emitter::{Aim, Emitter, LightSample, SceneSphere};
 use crate::geometry::{Affine3A, Rgb, Vec2, Vec3, luminance};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -65,7 +65,7 @@ impl Spot {
 }
 
 impl Emitter for Spot {
-    fn sample(&self, from: Vec3, _: [f32; 2]) -> Option<LightSample> {
+    fn sample(&self, from: Vec3, _: Aim) -> Option<LightSample> {
         let to_light = self.position - from;
         let distance_squared = to_light.length_squared();
         let distance = distance_squared.sqrt();

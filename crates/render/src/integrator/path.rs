@@ -10,7 +10,7 @@ use crate::geometry::{Ray, Rgb, Vec3};
 use crate::integrator::{CameraPath, Entry, Integrator, Transport};
 use crate::sampler::BounceNumbers;
 use crate::scene::world::{Hit, Vertex};
-use crate::scene::{Scene, Seen};
+use crate::scene::{LightAim, Scene, Seen};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "path",
@@ -73,6 +73,8 @@ struct Wave<'a> {
     walks: Vec<Walk>,
     rays: Vec<Ray>,
     chosen: Vec<BounceNumbers>,
+    /// What the next-event estimation of each walk will sample, if there are lights.
+    aims: Vec<Option<LightAim>>,
     hits: Vec<Option<Hit>>,
     connections: Vec<Connection>,
     shadow_rays: Vec<Ray>,
@@ -99,6 +101,7 @@ impl<'a> Wave<'a> {
             walks,
             rays,
             chosen: Vec::with_capacity(count),
+            aims: Vec::with_capacity(count),
             hits: Vec::with_capacity(count),
             connections: Vec::with_capacity(count),
             shadow_rays: Vec::with_capacity(count),
@@ -106,14 +109,16 @@ impl<'a> Wave<'a> {
         }
     }
 
-    /// The numbers of the next surface of each walk.
+    /// The numbers of the next surface of each walk, and what does not depend on the surface.
     fn draw_numbers(&mut self) {
         self.chosen.clear();
+        self.aims.clear();
         for walk in &self.walks {
             let chosen = self.paths[walk.number].numbers.bounce(self.depth);
-            self.scene.prefetch_light(&chosen);
+            self.aims.push(self.scene.aim(&chosen));
             self.chosen.push(chosen);
         }
+        self.scene.aim_closer(&mut self.aims);
     }
 
     /// Whether lights must not be seen now.
@@ -165,7 +170,7 @@ impl<'a> Wave<'a> {
 
         // Next-event estimation.
         if vertex.smooth {
-            self.light_directly(&walk, &vertex, &chosen);
+            self.light_directly(&walk, &vertex, i);
         }
 
         // Scatter.
@@ -209,11 +214,11 @@ impl<'a> Wave<'a> {
         }
     }
 
-    /// Light from one sampled light, weighted against scattering, if it is not occluded.
+    /// Light from the light that walk `i` aims at, weighted against scattering, if it is not occluded.
     #[inline]
-    fn light_directly(&mut self, walk: &Walk, vertex: &Vertex<'_>, chosen: &BounceNumbers) {
-        let position = vertex.surface.position;
-        let Some(light) = self.scene.sample_light(position, chosen.light_choice, chosen.light) else {
+    fn light_directly(&mut self, walk: &Walk, vertex: &Vertex<'_>, i: usize) {
+        let sample = |aim: &LightAim| self.scene.sample_light(vertex.surface.position, aim);
+        let Some(light) = self.aims[i].as_ref().and_then(sample) else {
             return;
         };
         let wi = vertex.surface.shading.to_local(light.direction);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::Result;
 use crate::accel::KernelChoice;
 use crate::emitter::selection::Selection;
-use crate::emitter::{Emitter, EmitterHit, LightSample};
+use crate::emitter::{Aim, Emitter, EmitterHit, LightSample};
 use crate::film::FilmSettings;
 use crate::geometry::{Ray, Rgb, Vec3};
 use crate::integrator::Transport;
@@ -62,6 +62,14 @@ pub(crate) struct Environment {
     probability: f32,
 }
 
+/// A light that was chosen, and where on it.
+#[derive(Clone, Copy)]
+pub(crate) struct LightAim {
+    emitter: usize,
+    probability: f32,
+    aim: Aim,
+}
+
 /// A light met by a ray.
 pub(crate) struct Seen {
     pub(crate) radiance: Rgb,
@@ -103,23 +111,31 @@ impl Scene {
         })
     }
 
-    /// Have fetched what [`Scene::sample_light`] will need for the same numbers.
+    /// Choose a light, and where on it to sample: all that needs no receiver, up to [`Scene::aim_closer`].
     #[inline]
-    pub(crate) fn prefetch_light(&self, numbers: &BounceNumbers) {
-        // only environments have anything to fetch
-        if self.environments.is_empty() {
-            return;
-        }
-        if let Some((emitter, _)) = self.selection.sample(numbers.light_choice) {
-            self.emitters[emitter].prefetch(numbers.light);
+    pub(crate) fn aim(&self, numbers: &BounceNumbers) -> Option<LightAim> {
+        let (emitter, probability) = self.selection.sample(numbers.light_choice)?;
+        let u = numbers.light;
+        // only environments do anything here
+        let aim = if self.environments.is_empty() { Aim::at(u) } else { self.emitters[emitter].aim(u) };
+        Some(LightAim { emitter, probability, aim })
+    }
+
+    /// The second step of [`Scene::aim`], of a whole wave: other work in between gives the memory time.
+    #[inline]
+    pub(crate) fn aim_closer(&self, chosen: &mut [Option<LightAim>]) {
+        if !self.environments.is_empty() {
+            for LightAim { emitter, aim, .. } in chosen.iter_mut().flatten() {
+                self.emitters[*emitter].aim_closer(aim);
+            }
         }
     }
 
-    /// Choose a light and a direction towards it.
+    /// A direction towards the chosen light.
     #[inline]
-    pub(crate) fn sample_light(&self, from: Vec3, choice: f32, u: [f32; 2]) -> Option<LightSample> {
-        let (emitter, probability) = self.selection.sample(choice)?;
-        let light = self.emitters[emitter].sample(from, u)?;
+    pub(crate) fn sample_light(&self, from: Vec3, chosen: &LightAim) -> Option<LightSample> {
+        let LightAim { emitter, probability, aim } = *chosen;
+        let light = self.emitters[emitter].sample(from, aim)?;
         Some(if light.delta {
             LightSample { radiance: light.radiance / probability, ..light }
         } else {

@@ -74,7 +74,7 @@ impl ShadingTriangle {
     }
 
     /// Interpolate at a hit.
-    #[inline]
+    #[inline(always)]
     fn surface(&self, [v, w]: [f32; 2], tangents: bool) -> Surface {
         let (ab, ac) = (Vec3::from(self.edges[0]), Vec3::from(self.edges[1]));
         let geometric_normal = Vec3::from(self.geometric_normal);
@@ -199,7 +199,7 @@ impl World {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn surface(&self, shape: &PlacedShape, ray: &Ray, hit: &Hit, tangents: bool) -> Surface {
         match &shape.analytic {
             None => self.triangles[hit.triangle as usize].surface(hit.barycentric, tangents),

@@ -90,11 +90,15 @@ impl LightPoint {
     pub(crate) fn by_area(area: f32, from: Vec3, position: Vec3, normal: Vec3, uv: Vec2) -> Option<Self> {
         let to_point = position - from;
         let distance_squared = to_point.length_squared();
+        let facing = -normal.dot(to_point);
+        // the cosine, compared before its root is known: half of all receivers may be behind a light
+        if !(facing > 0.0 && facing * facing > GRAZING * GRAZING * distance_squared) {
+            return None;
+        }
         let distance = distance_squared.sqrt();
         let direction = to_point / distance;
-        let cosine = -normal.dot(direction);
-        let density = distance_squared / (cosine * area);
-        (cosine > GRAZING).then_some(Self { position, normal, uv, direction, distance, density })
+        let density = distance_squared * distance / (facing * area);
+        Some(Self { position, normal, uv, direction, distance, density })
     }
 }
 

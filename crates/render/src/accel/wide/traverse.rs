@@ -228,13 +228,23 @@ impl<L: Lanes> Closest<L> {
             let at = |slot: usize| pack(*distances.get_unchecked(slot), *node.children.get_unchecked(slot));
             let (a, b) = (at(first), at(mask.trailing_zeros() as usize));
             mask &= mask - 1;
+            let (near, far) = (a.min(b), a.max(b));
             if mask == 0 {
-                stack.push(a.max(b));
-                return Some(Child(a.min(b) as u32));
+                stack.push(far);
+                return Some(Child(near as u32));
             }
-            stack.push(a);
-            stack.push(b);
-            let mut count = 2;
+            let c = at(mask.trailing_zeros() as usize);
+            mask &= mask - 1;
+            if mask == 0 {
+                // sorted without branches, which would be mispredicted
+                stack.push(far.max(c));
+                stack.push(far.min(c).max(near));
+                return Some(Child(near.min(c) as u32));
+            }
+            stack.push(far);
+            stack.push(near);
+            stack.push(c);
+            let mut count = 3;
             while mask != 0 {
                 stack.push(at(mask.trailing_zeros() as usize));
                 mask &= mask - 1;
