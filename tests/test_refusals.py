@@ -43,6 +43,8 @@ def refuse(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captu
         (["--integrator", "magic"], "'path'"),
         (["--filter", "sieve"], "'box', 'catmullrom', 'gaussian'"),
         (["--mis", "luck"], "'balance', 'power'"),
+        (["--roulette", "1,x"], "'1,x' is not throughput, none or probabilities"),
+        (["--roulette", "1,2"], "survival probabilities must be in (0, 1], not 2"),
         (["--kernel", "corn"], "'auto', 'embree', 'wide'"),
         (["--size", "0x0"], "'0x0' is not WIDTHxHEIGHT"),
         (["--size", "4 by 4"], "WIDTHxHEIGHT"),

@@ -10,15 +10,18 @@ Examples
 
 from evenlight import domains, importance, integrands, lab, points, quality, reduction, warp
 from evenlight._core import __version__
+from evenlight.bounce_statistics import BounceStatistics, bounce_statistics
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
 from evenlight.render import Film, Scene, load_scene, render
 
 __all__ = [
+    "BounceStatistics",
     "Estimate",
     "Film",
     "Scene",
     "__version__",
+    "bounce_statistics",
     "domains",
     "importance",
     "integrands",

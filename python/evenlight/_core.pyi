@@ -35,6 +35,7 @@ __all__ = [
     "lattice_error",
     "load_scene",
     "local_discrepancy",
+    "measure_bounces",
     "render",
     "replicate_seed",
     "samplers",
@@ -190,6 +191,7 @@ def load_scene(
 def render(
     scene: Scene, settings: dict[str, Any], progress: Callable[[dict[str, Any]], None] | None
 ) -> dict[str, Any]: ...
+def measure_bounces(scene: Scene, settings: dict[str, Any], images: bool) -> dict[str, Any]: ...
 
 # --- families: the names in each registry ---
 

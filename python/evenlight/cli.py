@@ -61,6 +61,7 @@ def _render(options: argparse.Namespace) -> int:
             filter=options.filter,
             size=options.size,
             mis=options.mis,
+            roulette=options.roulette,
             progress=bar.show,
         )
     for path in options.output:
@@ -212,6 +213,13 @@ def _add_render(parser: argparse.ArgumentParser) -> None:
     add("--size", type=_size, metavar="WxH", help="pixels (as the scene says)")
     add("--filter", choices=_core.filters(), help="pixel filter (as the scene says)")
     add("--mis", choices=_core.heuristics(), default="power", help="weighting heuristic (%(default)s)")
+    add(
+        "--roulette",
+        type=_roulette,
+        default="throughput",
+        metavar="throughput|none|P,P,…",
+        help="which paths end by chance; P: survival probabilities from surface to surface (%(default)s)",
+    )
     add("--exposure", type=_stops, default=0.0, help="stops by which a PNG is brightened (%(default)s)")
     add("--quiet", action="store_true", help="no progress bar, no summary")
     parser.set_defaults(run=_render)
@@ -293,6 +301,16 @@ def _stops(text: str) -> float:
     if not math.isfinite(number):
         raise argparse.ArgumentTypeError(f"'{text}' is not a finite number of stops")
     return number
+
+
+def _roulette(text: str) -> str | list[float]:
+    if text in ("throughput", "none"):
+        return text
+    try:
+        return [float(probability) for probability in text.split(",")]
+    except ValueError:
+        message = f"'{text}' is not throughput, none or probabilities, such as 1,0.9,0.5"
+        raise argparse.ArgumentTypeError(message) from None
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -10,12 +10,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, SupportsIndex, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 from evenlight import _core
 from evenlight.film import Film
 
 __all__ = ["Film", "Scene", "load_scene", "render"]
 
 Progress: TypeAlias = Callable[[dict[str, Any]], None]
+Roulette: TypeAlias = str | Sequence[float] | NDArray[np.floating]
 
 
 @dataclass(frozen=True)
@@ -120,6 +124,7 @@ def render(  # every argument is one setting; the settings are the interface
     filter: str | None = None,
     size: tuple[int, int] | None = None,
     mis: str = "power",
+    roulette: Roulette = "throughput",
     progress: Progress | None = None,
     kernel: str = "auto",
 ) -> Film:
@@ -152,6 +157,11 @@ def render(  # every argument is one setting; the settings are the interface
         Width and height in pixels; by default the scene file's.
     mis : {"power", "balance"}
         The heuristic that weighs light samples against BSDF samples.
+    roulette : {"throughput", "none"} or sequence of float
+        Which paths end by chance: from the scene file's `rr_depth` on, the more the less they can still bring
+        home; none, which needs a `max_depth`; or with these probabilities in (0, 1] a path goes on from its first,
+        second, … surface, and with the last one from all further ones. No choice changes the mean;
+        `bounce_statistics` helps to choose.
     progress : callable, optional
         Called now and then with a dict: samples `done` and `total`, and the current mean
         `relative_error` (None as long as it is unknown).
@@ -197,8 +207,9 @@ def render(  # every argument is one setting; the settings are the interface
         "filter": filter,
         "size": size,
         "mis": mis,
+        "roulette": _plain_roulette(roulette),
     }
-    _check_ranges(settings)
+    check_ranges(settings)
     result = _core.render(scene._core, settings, progress)
     about = {"scene": os.fspath(scene.path), "parameters": scene.parameters, "warnings": scene.warnings}
     metadata = settings | about | result["metadata"] | {"version": _core.__version__}
@@ -219,7 +230,7 @@ _RANGES = {
 }
 
 
-def _check_ranges(settings: dict[str, Any]) -> None:
+def check_ranges(settings: dict[str, Any]) -> None:
     """Refuse numbers that the core's integers cannot hold, in the words of the settings."""
     numbers = dict(settings)
     if settings["size"] is not None:
@@ -235,6 +246,16 @@ def _check_ranges(settings: dict[str, Any]) -> None:
             raise TypeError(f"{where} must be an integer, not {type(number).__name__}")
         if not least <= operator.index(number) <= most:
             raise ValueError(f"{where} is {number}; {least} to {most} is allowed")
+
+
+def _plain_roulette(roulette: Roulette) -> str | list[float]:
+    """Roulette as metadata can hold it."""
+    if isinstance(roulette, str):
+        return roulette
+    try:
+        return [float(probability) for probability in roulette]
+    except (TypeError, ValueError):
+        raise TypeError(f"roulette must be a name or survival probabilities, not {roulette!r}") from None
 
 
 def _as_written(value: object) -> str:

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use evenlight_render::bounces;
 use evenlight_render::film::Film;
-use evenlight_render::integrator::Mis;
+use evenlight_render::integrator::{Mis, Roulette};
 use evenlight_render::render::{self as engine, Progress, Settings};
 use evenlight_render::scene::{Scene as Inner, SceneOptions, mitsuba};
 use numpy::{PyArray1, PyArrayMethods};
@@ -17,7 +18,8 @@ use crate::errors::raise;
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Scene>()?;
     module.add_function(wrap_pyfunction!(load_scene, module)?)?;
-    module.add_function(wrap_pyfunction!(render, module)?)
+    module.add_function(wrap_pyfunction!(render, module)?)?;
+    module.add_function(wrap_pyfunction!(measure_bounces, module)?)
 }
 
 /// A scene, loaded and ready to be rendered.
@@ -89,7 +91,17 @@ fn settings_from(given: &Bound<'_, PyDict>) -> PyResult<Settings> {
         filter: get("filter")?.extract()?,
         size: get("size")?.extract()?,
         mis: Mis::by_name(&get("mis")?.extract::<String>()?).map_err(raise)?,
+        roulette: roulette_from(&get("roulette")?)?,
     })
+}
+
+/// A name or survival probabilities.
+fn roulette_from(given: &Bound<'_, PyAny>) -> PyResult<Roulette> {
+    match given.extract::<String>() {
+        Ok(name) => Roulette::by_name(&name),
+        Err(_) => Roulette::with_survival(&given.extract::<Vec<f64>>()?),
+    }
+    .map_err(raise)
 }
 
 /// Render; the callback is told about ten times a second how far it is. An interrupt stops cleanly, with what there is.
@@ -128,6 +140,44 @@ fn render<'py>(
     let result = arrays(py, film)?;
     result.set_item("metadata", metadata)?;
     result.set_item("partial", partial)?;
+    Ok(result)
+}
+
+/// Statistics of the bounces, one number for each; the roulette of the settings is ignored. An interrupt raises.
+#[pyfunction]
+fn measure_bounces<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    settings: &Bound<'py, PyDict>,
+    images: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let settings = settings_from(settings)?;
+    let mut raised = None;
+    let mut go_on = |_| {
+        raised = raised.take().or(Python::attach(|py| py.check_signals()).err());
+        raised.is_none()
+    };
+    let measured =
+        py.detach(|| bounces::measure(&scene.inner, &settings, images, &mut go_on)).map_err(raise)?;
+    let Some(measured) = measured else {
+        return Err(raised.unwrap_or_else(|| pyo3::exceptions::PyKeyboardInterrupt::new_err(())));
+    };
+    let result = PyDict::new(py);
+    let [width, height] = measured.size.map(|n| n as usize);
+    if images {
+        let shape = [measured.mean.len(), height, width, 3];
+        result
+            .set_item("images", PyArray1::from_vec(py, measured.images.into_flattened()).reshape(shape)?)?;
+    }
+    for (name, numbers) in [
+        ("mean", measured.mean),
+        ("mean_square", measured.mean_square),
+        ("tail_mean_square", measured.tail_mean_square),
+        ("alive", measured.alive),
+        ("rays", measured.rays),
+    ] {
+        result.set_item(name, PyArray1::from_vec(py, numbers))?;
+    }
     Ok(result)
 }
 

@@ -5,6 +5,7 @@
 //! a standard error.
 
 pub mod accel;
+pub mod bounces;
 pub mod bsdf;
 pub mod emitter;
 mod error;
@@ -20,5 +21,6 @@ pub mod scene;
 pub mod sensor;
 pub mod shape;
 pub mod texture;
+mod workers;
 
 pub use error::{Error, Location, Result};

@@ -1,26 +1,21 @@
 //! The render loop that all camera-path integrators share: tiles × replicates, on any number of threads, with the same bits.
 
-use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use evenlight_points::Seed;
 
 use crate::film::{Film, FilmSettings, PixelMean, Tile};
 use crate::geometry::{Rgb, Vec3};
-use crate::integrator::{self, CameraPath, Integrator, Measurement, Mis, Transport};
+use crate::integrator::{self, CameraPath, Integrator, Measurement, Mis, Roulette, Transport};
 use crate::sampler::{self, PathNumbers};
 use crate::scene::Scene;
 use crate::scene::world::WAVE;
 use crate::sensor::Sensor;
+use crate::workers::{News, in_order};
 use crate::{Error, Result};
 
 /// Side of a tile in pixels.
 const TILE: u32 = 16;
-
-/// How long the caller is not asked again whether to go on.
-const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Plain settings of a render.
 #[derive(Clone, Debug)]
@@ -45,6 +40,8 @@ pub struct Settings {
     pub size: Option<[u32; 2]>,
     /// How scattering and light sampling are combined.
     pub mis: Mis,
+    /// When paths end by chance.
+    pub roulette: Roulette,
 }
 
 impl Default for Settings {
@@ -60,6 +57,7 @@ impl Default for Settings {
             filter: None,
             size: None,
             mis: Mis::default(),
+            roulette: Roulette::default(),
         }
     }
 }
@@ -82,11 +80,11 @@ impl std::fmt::Debug for Film {
 }
 
 /// Everything that a pixel needs, checked and built.
-struct Job<'a> {
-    scene: &'a Scene,
-    film: FilmSettings,
+pub(crate) struct Job<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) film: FilmSettings,
     sensor: std::sync::Arc<dyn Sensor>,
-    integrator: Box<dyn Integrator>,
+    pub(crate) integrator: Box<dyn Integrator>,
     sampler: &'static sampler::Entry,
     seed: Seed,
     samples: u32,
@@ -104,51 +102,19 @@ pub fn render(
     let mut film = Film::new(width, height, settings.replicates)?;
     let tiles = tiles(width, height, settings.replicates);
     let total = u64::from(width) * u64::from(height) * u64::from(settings.spp);
-    let threads = match settings.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
-
-    let next = AtomicUsize::new(0);
     let stop = AtomicBool::new(false);
     let samples = AtomicU64::new(0);
-    std::thread::scope(|scope| {
-        let (sender, finished) = mpsc::channel();
-        for _ in 0..threads.min(tiles.len()) {
-            let sender = sender.clone();
-            scope.spawn(|| {
-                let sender = sender;
-                while let Some((number, tile)) = take(&tiles, &next, &stop) {
-                    if let Some(means) = job.render_tile(tile, &stop) {
-                        samples.fetch_add(means.len() as u64 * u64::from(job.samples), Ordering::Relaxed);
-                        // the receiver only goes away when nobody wants the tile any more
-                        let _ = sender.send((number, means));
-                    }
-                }
-            });
-        }
-        drop(sender);
-        // Tiles are merged in order, so that sums do not depend on who was faster.
-        let mut waiting = BTreeMap::new();
-        let mut merged = 0;
-        let mut asked = Instant::now();
-        loop {
-            match finished.recv_timeout(PATIENCE.saturating_sub(asked.elapsed())) {
-                Ok((number, means)) => drop(waiting.insert(number, means)),
-                Err(mpsc::RecvTimeoutError::Timeout) => {}
-                Err(mpsc::RecvTimeoutError::Disconnected) => break,
-            }
-            // also when tiles come in one after the other
-            if asked.elapsed() >= PATIENCE {
-                let progress = Progress { samples: samples.load(Ordering::Relaxed), total, film: &film };
-                if !go_on(progress) {
-                    stop.store(true, Ordering::Relaxed);
-                }
-                asked = Instant::now();
-            }
-            while let Some(means) = waiting.remove(&merged) {
-                film.merge(&tiles[merged], &means);
-                merged += 1;
+    let render_tile = |number: usize| {
+        let means = job.render_tile(&tiles[number], &stop)?;
+        samples.fetch_add(means.len() as u64 * u64::from(job.samples), Ordering::Relaxed);
+        Some(means)
+    };
+    in_order(tiles.len(), settings.threads, &stop, render_tile, &mut |news| match news {
+        News::Done(number, means) => film.merge(&tiles[number], &means),
+        News::Time => {
+            let progress = Progress { samples: samples.load(Ordering::Relaxed), total, film: &film };
+            if !go_on(progress) {
+                stop.store(true, Ordering::Relaxed);
             }
         }
     });
@@ -156,16 +122,8 @@ pub fn render(
     Ok(film)
 }
 
-fn take<'a>(tiles: &'a [Tile], next: &AtomicUsize, stop: &AtomicBool) -> Option<(usize, &'a Tile)> {
-    if stop.load(Ordering::Relaxed) {
-        return None;
-    }
-    let number = next.fetch_add(1, Ordering::Relaxed);
-    tiles.get(number).map(|tile| (number, tile))
-}
-
 /// All tiles of all replicates, one replicate after the other: an interrupted render has whole replicates.
-fn tiles(width: u32, height: u32, replicates: u32) -> Vec<Tile> {
+pub(crate) fn tiles(width: u32, height: u32, replicates: u32) -> Vec<Tile> {
     let starts = |length: u32| (0..length).step_by(TILE as usize);
     let tile =
         |replicate, x, y| Tile { replicate, x, y, width: TILE.min(width - x), height: TILE.min(height - y) };
@@ -175,7 +133,7 @@ fn tiles(width: u32, height: u32, replicates: u32) -> Vec<Tile> {
 }
 
 impl<'a> Job<'a> {
-    fn new(scene: &'a Scene, settings: &Settings) -> Result<Self> {
+    pub(crate) fn new(scene: &'a Scene, settings: &Settings) -> Result<Self> {
         let Settings { spp, replicates, .. } = *settings;
         if replicates == 0 || spp == 0 {
             return Err(Error::Settings("spp and replicates must be at least 1".into()));
@@ -194,8 +152,13 @@ impl<'a> Job<'a> {
         let transport = Transport {
             max_depth: settings.max_depth.unwrap_or(scene.transport.max_depth),
             mis: settings.mis,
-            ..scene.transport
+            roulette: settings.roulette.clone(),
+            ..scene.transport.clone()
         };
+        if transport.max_depth == u32::MAX && transport.roulette.is_endless() {
+            let message = "without roulette, or when all survive it in the end, max_depth must be limited";
+            return Err(Error::Settings(message.into()));
+        }
         Ok(Self {
             scene,
             sensor: scene.sensor(film.aspect())?,
@@ -209,26 +172,45 @@ impl<'a> Job<'a> {
 
     /// The means of a tile's pixels; `None` when told to stop.
     fn render_tile(&self, tile: &Tile, stop: &AtomicBool) -> Option<Vec<PixelMean>> {
-        let mut wave = Wave::new((tile.width * tile.height) as usize);
+        let mut sums = vec![PixelSum::default(); (tile.width * tile.height) as usize];
+        self.each_wave(tile, stop, |wave| {
+            self.integrator.measure(self.scene, &mut wave.paths);
+            for (path, (pixel, weight)) in wave.paths.iter().zip(&wave.places) {
+                sums[*pixel].add(&path.measurement, *weight);
+            }
+        })?;
+        Some(sums.iter().map(|sum| sum.mean(self.samples)).collect())
+    }
+
+    /// Show all samples of a tile to `measure`, wave after wave; `None` when told to stop.
+    pub(crate) fn each_wave(
+        &self,
+        tile: &Tile,
+        stop: &AtomicBool,
+        mut measure: impl FnMut(&mut Wave),
+    ) -> Option<()> {
+        let mut wave = Wave { paths: Vec::with_capacity(WAVE), places: Vec::with_capacity(WAVE) };
         let seed = self.seed.replicate(tile.replicate.into());
-        for pixel in 0..wave.sums.len() {
-            let x = self.film.crop[0] + tile.x + pixel as u32 % tile.width;
-            let y = self.film.crop[1] + tile.y + pixel as u32 / tile.width;
+        for pixel in 0..tile.width * tile.height {
+            let x = self.film.crop[0] + tile.x + pixel % tile.width;
+            let y = self.film.crop[1] + tile.y + pixel / tile.width;
             let seed = seed.pixel(x, y);
             for index in 0..self.samples {
                 let (path, weight) = self.camera_path([x, y], seed, index);
                 wave.paths.push(path);
-                wave.places.push((pixel, weight));
+                wave.places.push((pixel as usize, weight));
                 if wave.paths.len() == WAVE {
                     if stop.load(Ordering::Relaxed) {
                         return None;
                     }
-                    wave.measure(self);
+                    measure(&mut wave);
+                    wave.paths.clear();
+                    wave.places.clear();
                 }
             }
         }
-        wave.measure(self);
-        Some(wave.sums.iter().map(|sum| sum.mean(self.samples)).collect())
+        measure(&mut wave);
+        Some(())
     }
 
     /// The path of one sample of a pixel, and the weight of the sample.
@@ -247,32 +229,10 @@ impl<'a> Job<'a> {
 }
 
 /// Samples of a tile that are measured together, whichever pixels they belong to.
-struct Wave {
-    paths: Vec<CameraPath>,
-    /// Pixel and weight of each path.
-    places: Vec<(usize, f32)>,
-    /// Of all pixels of the tile.
-    sums: Vec<PixelSum>,
-}
-
-impl Wave {
-    fn new(pixels: usize) -> Self {
-        Self {
-            paths: Vec::with_capacity(WAVE),
-            places: Vec::with_capacity(WAVE),
-            sums: vec![PixelSum::default(); pixels],
-        }
-    }
-
-    /// Measure what has come together, and begin anew.
-    fn measure(&mut self, job: &Job<'_>) {
-        job.integrator.measure(job.scene, &mut self.paths);
-        for (path, (pixel, weight)) in self.paths.iter().zip(&self.places) {
-            self.sums[*pixel].add(&path.measurement, *weight);
-        }
-        self.paths.clear();
-        self.places.clear();
-    }
+pub(crate) struct Wave {
+    pub(crate) paths: Vec<CameraPath>,
+    /// Pixel in the tile and weight of each path.
+    pub(crate) places: Vec<(usize, f32)>,
 }
 
 /// What the samples of a pixel add up to, in the order of their indices.

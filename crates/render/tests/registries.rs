@@ -35,7 +35,7 @@ fn families() -> Vec<Family> {
         // `area` belongs to a shape and is built with it
         ("render/src/emitter", names!(emitter::ALL), &["area", "placement", "selection", "sky"]),
         ("render/src/filter", names!(filter::ALL), &[]),
-        ("render/src/integrator", names!(integrator::ALL), &[]),
+        ("render/src/integrator", names!(integrator::ALL), &["roulette"]),
         ("render/src/sampler", names!(sampler::ALL), &[]),
         ("render/src/sensor", names!(sensor::ALL), &[]),
         ("render/src/shape", names!(shape::ALL), &["triangles"]),

@@ -192,6 +192,25 @@ fn scale_and_distance_do_not_leak() {
     }
 }
 
+/// Rays that leave a level surface far larger than the view, grazing ones among them, start above it by less than what the distance
+/// to its corners loses to rounding: its flat box must tell.
+#[test]
+fn huge_level_surfaces_do_not_shadow_themselves() {
+    let corners = [[-1e5, -1e5], [1e5, -1e5], [1e5, 1e5], [-1e5, 1e5]];
+    let ground =
+        Mesh { positions: corners.map(|[x, z]| [x, 0.0, z]).into(), indices: vec![[0, 1, 2], [2, 3, 0]] };
+    let mut random = Random(8);
+    for kernel in house_kernels(&ground.soup()) {
+        for _ in 0..500 * EFFORT {
+            let (place, direction) = (point(&mut random) * 10.0, point(&mut random));
+            let origin = Vec3::new(place.x, 3e-4, place.z);
+            let upward = Vec3::new(direction.x, (direction.y * place.y * 0.1).abs(), direction.z).normalize();
+            let ray = ray(origin, upward);
+            assert!(!kernel.occluded(&ray) && kernel.closest(&ray).is_none(), "{ray:?}");
+        }
+    }
+}
+
 #[test]
 fn axis_parallel_rays_do_not_leak() {
     let mesh = Mesh::cube_grid(8);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::Result;
 use crate::bsdf::metal::Metal;
-use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
+use crate::bsdf::{Bsdf, BsdfSample};
 use crate::geometry::{Rgb, Surface, Vec3};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -23,10 +23,6 @@ fn build(properties: &Properties<'_>, builder: &mut Builder) -> Result<Arc<dyn B
 impl Bsdf for Conductor {
     fn sample(&self, surface: &Surface, wo: Vec3, _: f32, _: [f32; 2]) -> Option<BsdfSample> {
         (wo.z > 0.0).then(|| BsdfSample::mirror(wo, self.metal.reflectance(surface.uv, wo.z), 1.0))
-    }
-
-    fn evaluate(&self, _: &Surface, _: Vec3, _: Vec3) -> BsdfValue {
-        BsdfValue::ZERO
     }
 
     fn has_smooth_lobe(&self) -> bool {

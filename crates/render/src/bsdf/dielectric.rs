@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::Result;
 use crate::bsdf::fresnel;
 use crate::bsdf::glass::Glass;
-use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
+use crate::bsdf::{Bsdf, BsdfSample};
 use crate::geometry::{Rgb, Surface, Vec3};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -38,10 +38,6 @@ impl Bsdf for Dielectric {
             delta: true,
             eta: interface.eta_it,
         })
-    }
-
-    fn evaluate(&self, _: &Surface, _: Vec3, _: Vec3) -> BsdfValue {
-        BsdfValue::ZERO
     }
 
     fn has_smooth_lobe(&self) -> bool {

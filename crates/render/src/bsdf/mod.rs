@@ -62,8 +62,10 @@ pub trait Bsdf: Send + Sync {
     /// Sample `wi`: `lobe` chooses among lobes, `u` is a point of the unit square. `None`: absorbed.
     fn sample(&self, surface: &Surface, wo: Vec3, lobe: f32, u: [f32; 2]) -> Option<BsdfSample>;
 
-    /// Value and density of the non-delta lobes at `wi`.
-    fn evaluate(&self, surface: &Surface, wo: Vec3, wi: Vec3) -> BsdfValue;
+    /// Value and density of the non-delta lobes at `wi`; nothing where there are none.
+    fn evaluate(&self, _surface: &Surface, _wo: Vec3, _wi: Vec3) -> BsdfValue {
+        BsdfValue::ZERO
+    }
 
     /// Whether there is any non-delta lobe (else next-event estimation is pointless).
     fn has_smooth_lobe(&self) -> bool {

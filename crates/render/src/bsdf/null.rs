@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
+use crate::bsdf::{Bsdf, BsdfSample};
 use crate::geometry::{Rgb, Surface, Vec3};
 use crate::scene::build::Entry;
 
@@ -14,10 +14,6 @@ pub struct Null;
 impl Bsdf for Null {
     fn sample(&self, _: &Surface, wo: Vec3, _: f32, _: [f32; 2]) -> Option<BsdfSample> {
         Some(BsdfSample::pass_through(wo, Rgb::ONE, 1.0))
-    }
-
-    fn evaluate(&self, _: &Surface, _: Vec3, _: Vec3) -> BsdfValue {
-        BsdfValue::ZERO
     }
 
     fn has_smooth_lobe(&self) -> bool {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::Result;
 use crate::bsdf::fresnel;
 use crate::bsdf::glass::Glass;
-use crate::bsdf::{Bsdf, BsdfSample, BsdfValue};
+use crate::bsdf::{Bsdf, BsdfSample};
 use crate::geometry::{Rgb, Surface, Vec3};
 use crate::scene::build::{Builder, Entry};
 use crate::scene::properties::Properties;
@@ -28,10 +28,6 @@ impl Bsdf for ThinDielectric {
             return Some(BsdfSample::mirror(wo, self.0.reflectance.evaluate(surface.uv), reflected));
         }
         Some(BsdfSample::pass_through(wo, self.0.transmittance.evaluate(surface.uv), 1.0 - reflected))
-    }
-
-    fn evaluate(&self, _: &Surface, _: Vec3, _: Vec3) -> BsdfValue {
-        BsdfValue::ZERO
     }
 
     fn has_smooth_lobe(&self) -> bool {

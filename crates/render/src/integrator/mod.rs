@@ -6,6 +6,9 @@ use crate::scene::Scene;
 use crate::{Error, Result};
 
 pub mod path;
+mod roulette;
+
+pub use roulette::{Roulette, Survival};
 
 /// One integrator of the registry.
 pub struct Entry {
@@ -65,12 +68,14 @@ impl Mis {
 }
 
 /// The settings that all light transport shares; defaults are Mitsuba's.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Transport {
     /// The longest path, in edges: 1 is light seen directly, 2 is direct illumination.
     pub max_depth: u32,
-    /// Russian roulette begins at this depth.
+    /// Roulette in proportion to throughput begins at this depth.
     pub rr_depth: u32,
+    /// When paths end by chance.
+    pub roulette: Roulette,
     /// Lights are not seen by the camera.
     pub hide_emitters: bool,
     /// How techniques are combined.
@@ -100,9 +105,24 @@ pub struct CameraPath {
     pub measurement: Measurement,
 }
 
+/// What an integrator shows after each segment of the paths of a wave.
+pub struct Step<'a> {
+    /// All paths of the wave, with what they have measured so far. The radiance may be taken away.
+    pub paths: &'a mut [CameraPath],
+    /// Rays that found the ends of the segments: as many as there are paths that got so far.
+    pub rays: usize,
+    /// Rays from there to lights that were sampled.
+    pub shadow_rays: usize,
+}
+
 /// A way to solve the light transport equation from the camera.
 pub trait Integrator: Send + Sync {
     /// Estimate what each of at most [`WAVE`](crate::scene::world::WAVE) camera rays measures: independent of each other, but
     /// together they wait for memory less.
-    fn measure(&self, scene: &Scene, paths: &mut [CameraPath]);
+    fn measure(&self, scene: &Scene, paths: &mut [CameraPath]) {
+        self.measure_steps(scene, paths, &mut |_| {});
+    }
+
+    /// The same, shown to `watch` after each segment.
+    fn measure_steps(&self, scene: &Scene, paths: &mut [CameraPath], watch: &mut dyn FnMut(Step<'_>));
 }

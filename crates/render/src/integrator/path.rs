@@ -7,7 +7,7 @@
 //! Paths advance in a wave, all by one surface at a time: what one waits for in memory is fetched while the others compute.
 
 use crate::geometry::{Ray, Rgb, Vec3};
-use crate::integrator::{CameraPath, Entry, Integrator, Transport};
+use crate::integrator::{CameraPath, Entry, Integrator, Step, Transport};
 use crate::sampler::BounceNumbers;
 use crate::scene::world::{Hit, Vertex};
 use crate::scene::{LightAim, Scene, Seen};
@@ -18,27 +18,18 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |transport| Box::new(Path(transport)),
 };
 
-/// A path survives roulette with this many times its throughput as probability.
-///
-/// The best probability is in proportion to throughput, by a factor that grows with the share of the pixel's error that long paths have
-/// (Bolin & Meyer 1997, "An error metric for Monte Carlo ray tracing"; Rath et al. 2022, "EARS: Efficiency-Aware Russian Roulette and
-/// Splitting"). Evenly spread points leave little error to short paths: with 2 instead of the usual 1, a Cornell box at 64 samples has
-/// 8 % less squared error for 2 % more time; 4 gains less than it costs.
-const PERSISTENCE: f32 = 2.0;
-
-/// Roulette never lets all pass: long paths in bright scenes must end.
-const MOST_SURVIVORS: f32 = 0.95;
-
 struct Path(Transport);
 
 impl Integrator for Path {
-    fn measure(&self, scene: &Scene, paths: &mut [CameraPath]) {
-        let mut wave = Wave::new(scene, self.0, paths);
+    fn measure_steps(&self, scene: &Scene, paths: &mut [CameraPath], watch: &mut dyn FnMut(Step<'_>)) {
+        let mut wave = Wave::new(scene, &self.0, paths);
         while wave.depth < self.0.max_depth && !wave.walks.is_empty() {
             wave.draw_numbers();
             wave.trace();
+            let rays = wave.rays.len();
             wave.scatter();
-            wave.connect();
+            let shadow_rays = wave.connect();
+            watch(Step { paths: &mut *wave.paths, rays, shadow_rays });
             wave.depth += 1;
         }
     }
@@ -66,7 +57,7 @@ struct Connection {
 /// Paths that advance together. Vectors of walks, rays, chosen numbers and hits run in parallel.
 struct Wave<'a> {
     scene: &'a Scene,
-    transport: Transport,
+    transport: &'a Transport,
     paths: &'a mut [CameraPath],
     /// Surfaces behind all walks.
     depth: u32,
@@ -82,7 +73,7 @@ struct Wave<'a> {
 }
 
 impl<'a> Wave<'a> {
-    fn new(scene: &'a Scene, transport: Transport, paths: &'a mut [CameraPath]) -> Self {
+    fn new(scene: &'a Scene, transport: &'a Transport, paths: &'a mut [CameraPath]) -> Self {
         let rays: Vec<Ray> = paths.iter().map(|path| path.ray).collect();
         let walk = |(number, ray): (usize, &Ray)| Walk {
             number,
@@ -186,8 +177,9 @@ impl<'a> Wave<'a> {
         if largest == 0.0 {
             return None;
         }
-        if self.depth + 1 >= self.transport.rr_depth {
-            let survival = (PERSISTENCE * largest * walk.eta * walk.eta).min(MOST_SURVIVORS);
+        let Transport { roulette, rr_depth, .. } = self.transport;
+        let survival = roulette.survival(self.depth + 1, *rr_depth, largest * walk.eta * walk.eta);
+        if survival < 1.0 {
             if chosen.roulette >= survival {
                 return None;
             }
@@ -233,8 +225,8 @@ impl<'a> Wave<'a> {
         self.shadow_rays.push(vertex.shadow_ray(light.direction, light.distance));
     }
 
-    /// Add the light that is not occluded.
-    fn connect(&mut self) {
+    /// Add the light that is not occluded; how many rays that takes.
+    fn connect(&mut self) -> usize {
         self.occluded.resize(self.shadow_rays.len(), false);
         self.scene.world.occluded_each(&self.shadow_rays, &mut self.occluded);
         for (connection, occluded) in self.connections.drain(..).zip(&self.occluded) {
@@ -242,6 +234,8 @@ impl<'a> Wave<'a> {
                 self.paths[connection.number].measurement.radiance += connection.radiance;
             }
         }
+        let shadow_rays = self.shadow_rays.len();
         self.shadow_rays.clear();
+        shadow_rays
     }
 }

@@ -8,7 +8,7 @@ use crate::accel::{self, TriangleSoup};
 use crate::emitter::{self, Emitter, SceneSphere, area::Area, selection::Selection};
 use crate::film::FilmSettings;
 use crate::geometry::Vec3;
-use crate::integrator::{Mis, Transport};
+use crate::integrator::{Mis, Roulette, Transport};
 use crate::memory::use_large_pages;
 use crate::scene::analytic::{AnalyticShapes, Numbered};
 use crate::scene::build::Builder;
@@ -197,7 +197,8 @@ fn read_transport(node: &Node, builder: &mut Builder) -> Result<Transport> {
         .ok_or_else(|| properties.error("rr_depth must be positive"))?;
     let hide_emitters = properties.boolean("hide_emitters", false)?;
     builder.finish(&properties)?;
-    Ok(Transport { max_depth, rr_depth, hide_emitters, mis: Mis::default() })
+    let (roulette, mis) = (Roulette::default(), Mis::default());
+    Ok(Transport { max_depth, rr_depth, roulette, hide_emitters, mis })
 }
 
 /// Build the sensor of a node, for a film of this aspect ratio.
