@@ -131,7 +131,7 @@ pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     let (sin, cos, quarter) = (sin.to_bits(), cos.to_bits(), quarter as u32);
     let swap = (sin ^ cos) & 0_u32.wrapping_sub(quarter & 1);
     let (sin, cos) = (sin ^ swap, cos ^ swap);
-    (f32::from_bits(sin ^ (quarter & 2) << 30), f32::from_bits(cos ^ (quarter + 1 & 2) << 30))
+    (f32::from_bits(sin ^ (quarter & 2) << 30), f32::from_bits(cos ^ ((quarter + 1) & 2) << 30))
 }
 
 #[cfg(test)]
