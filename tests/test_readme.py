@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, domains, importance, integrands, points, rules
+from evenlight import _core, cli, domains, importance, integrands, mcmc, points, rules
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -86,6 +86,8 @@ FAMILIES = {
     "domains": list(domains.DOMAINS),
     "densities": list(importance.DENSITIES),
     "heuristics": list(importance.HEURISTICS),
+    "kernels": list(mcmc.KERNELS),
+    "driving": list(mcmc.DRIVING),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),
