@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
 from itertools import pairwise
@@ -51,11 +52,21 @@ def test_the_example_of_an_integral_runs(capsys: pytest.CaptureFixture[str]) -> 
 
 
 def test_the_example_of_a_mixture_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    *_, example = blocks("python")
+    (example,) = (block for block in blocks("python") if "mixture_estimate" in block)
     names: dict[str, Any] = {}
     exec(example, names)
     assert f"# {capsys.readouterr().out.strip()}" in example
     assert abs(names["estimate"].value - 1.3498980316e-3) < 4 * names["estimate"].standard_error
+
+
+def test_the_example_of_levels_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = (block for block in blocks("python") if "mlmc" in block)
+    names: dict[str, Any] = {}
+    exec(example, names)
+    shown, *table = capsys.readouterr().out.splitlines()
+    assert f"# {shown}" in example
+    assert len(table) == len(names["estimate"].diagnostics["levels"]) + 1
+    assert abs(names["estimate"].value - (math.e - 1)) < 3e-3
 
 
 def commands() -> list[str]:

@@ -70,7 +70,7 @@ class LFSR(Driving):
     m : int
         10 to 32; the chain has 2^m steps.
     table : {"harase", "chen"}, optional
-        Harase's registers [2]_, m = 10 to 16, chosen for small t-values in 2 to 5 dimensions; those of Chen et al. [1]_,
+        Harase's registers [2]_, m = 10 to 16, with the least t-values in 2 to 5 dimensions; those of Chen et al. [1]_,
         m = 10 to 32. By default Harase's where they exist.
 
     Raises
