@@ -5,28 +5,51 @@ chains of any kernel, driven by any sequence.
 """
 
 from .chains import Chains
-from .driving import DRIVING, LFSR, Driving, IndependentNumbers
+from .driving import DRIVING, LCG, LFSR, Antithetic, Driving, IndependentNumbers, Permuted, Stratified
 from .kernel import Info, Kernel, State, WarmUp
-from .kernels import HMC, KERNELS, MALA, Gibbs, Independence, MetropolisHastings, Proposal, RandomWalk
+from .kernels import (
+    HMC,
+    KERNELS,
+    MALA,
+    DelayedRejection,
+    Gibbs,
+    HerdedGibbs,
+    Independence,
+    MetropolisHastings,
+    MultipleTry,
+    ParallelTempering,
+    Proposal,
+    RandomWalk,
+    Slice,
+)
 from .run import run
 
 __all__ = [
     "DRIVING",
     "HMC",
     "KERNELS",
+    "LCG",
     "LFSR",
     "MALA",
+    "Antithetic",
     "Chains",
+    "DelayedRejection",
     "Driving",
     "Gibbs",
+    "HerdedGibbs",
     "Independence",
     "IndependentNumbers",
     "Info",
     "Kernel",
     "MetropolisHastings",
+    "MultipleTry",
+    "ParallelTempering",
+    "Permuted",
     "Proposal",
     "RandomWalk",
+    "Slice",
     "State",
+    "Stratified",
     "WarmUp",
     "run",
 ]
