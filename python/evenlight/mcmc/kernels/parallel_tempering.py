@@ -47,7 +47,7 @@ class ParallelTempering(Kernel):
         From 1 down, above 0; the last one so small that its kernel crosses between modes. Neighbors should swap in
         about 40 % of their turns (`info["swaps"]`).
     within : callable
-        ``within(log_density, beta)``: a kernel for a log density, which is beta times yours already. Its state must be a
+        ``within(log_density, beta)``: a kernel for a log density that is beta times yours already. Its state must be a
         `DensityState` or an extension by arrays that are proportional to the log density, such as its gradient.
 
     Raises
