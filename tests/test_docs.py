@@ -8,6 +8,7 @@ import pytest
 
 import evenlight
 from evenlight import domains, importance, integrands, lab, multilevel, points, quality, reduction
+from evenlight.multilevel import models
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -22,6 +23,7 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.importance": importance,
         "evenlight.lab": lab,
         "evenlight.multilevel": multilevel,
+        "evenlight.multilevel.models": models,
     }
     return [
         (f"{prefix}.{name}", thing)
