@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import domains, importance, integrands, lab, multilevel, points, quality, reduction
+from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
 from evenlight.multilevel import models
 
 
@@ -22,6 +22,7 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.quality": quality,
         "evenlight.importance": importance,
         "evenlight.lab": lab,
+        "evenlight.mcmc": mcmc,
         "evenlight.multilevel": multilevel,
         "evenlight.multilevel.models": models,
     }

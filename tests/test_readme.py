@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, domains, importance, integrands, points, rules
+from evenlight import _core, cli, domains, importance, integrands, mcmc, points, rules
 from evenlight.multilevel import models
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -102,6 +102,8 @@ FAMILIES = {
     "payoffs": list(models.PAYOFFS),
     "fields": list(models.FIELDS),
     "formats": list(models.FORMATS),
+    "kernels": list(mcmc.KERNELS),
+    "driving": list(mcmc.DRIVING),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),
