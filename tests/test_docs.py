@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import domains, importance, integrands, lab, multilevel, points, quality, reduction
+from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -21,6 +21,7 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.quality": quality,
         "evenlight.importance": importance,
         "evenlight.lab": lab,
+        "evenlight.mcmc": mcmc,
         "evenlight.multilevel": multilevel,
     }
     return [

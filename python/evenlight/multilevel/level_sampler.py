@@ -74,6 +74,8 @@ class LevelSampler(Protocol):
     """In messages and reports."""
     max_level: int | None = None
     """The finest level; None if there is no end to them."""
+    exact: bool = False
+    """True if the finest level is the quantity itself, so that the sum over all levels has no bias."""
     keyed: bool = False
     """True if the columns of `u` are the key of a generator (a simulation that takes no fixed number of random numbers)
     and not numbers that the values depend on: then evenly spread points are of no use, and methods that are driven by
@@ -94,6 +96,8 @@ class LevelSampler(Protocol):
 
 class Ladder(Protocol):
     """A level sampler that can run one simulation on all levels at once besides; the coupled sum of `debias` asks it.
+
+    It costs what all levels up to the given one cost: cost(level) + cost(level - 2) + …, as `cost` is of pairs.
 
     Examples
     --------
@@ -140,6 +144,7 @@ class MultiIndexSampler(Protocol):
 
     name: str
     max_level: tuple[int | None, int | None] = (None, None)
+    exact: bool = False
     keyed: bool = False
 
     def dims(self, level: tuple[int, int]) -> int:
