@@ -13,6 +13,7 @@ from .level_sampler import Coupled, Ladder, LevelSampler, MultiIndexSampler
 from .level_table import MultilevelWarning, level_table
 from .mlmc import mlmc
 from .mlqmc import mlqmc
+from .multi_index import multi_index
 
 __all__ = [
     "CONSTRUCTIONS",
@@ -31,4 +32,5 @@ __all__ = [
     "level_table",
     "mlmc",
     "mlqmc",
+    "multi_index",
 ]
