@@ -7,7 +7,8 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import domains, importance, integrands, lab, multilevel, points, quality, reduction
+from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
+from evenlight.multilevel import models
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -21,7 +22,9 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.quality": quality,
         "evenlight.importance": importance,
         "evenlight.lab": lab,
+        "evenlight.mcmc": mcmc,
         "evenlight.multilevel": multilevel,
+        "evenlight.multilevel.models": models,
     }
     return [
         (f"{prefix}.{name}", thing)

@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, domains, importance, integrands, points, rules
+from evenlight import _core, cli, domains, importance, integrands, mcmc, points, rules
+from evenlight.multilevel import models
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -97,6 +98,12 @@ FAMILIES = {
     "domains": list(domains.DOMAINS),
     "densities": list(importance.DENSITIES),
     "heuristics": list(importance.HEURISTICS),
+    "models": list(models.MODELS),
+    "payoffs": list(models.PAYOFFS),
+    "fields": list(models.FIELDS),
+    "formats": list(models.FORMATS),
+    "kernels": list(mcmc.KERNELS),
+    "driving": list(mcmc.DRIVING),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),

@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import domains, importance, integrands, lab, multilevel, points, quality, reduction, warp
+from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction, warp
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -25,6 +25,7 @@ __all__ = [
     "integrate",
     "lab",
     "load_scene",
+    "mcmc",
     "multilevel",
     "points",
     "quality",

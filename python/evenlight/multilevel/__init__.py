@@ -3,6 +3,7 @@
 A model is a `LevelSampler`: from a block of uniform numbers to the fine and the coarse value of the same simulation.
 """
 
+from . import models
 from .brownian import CONSTRUCTIONS, brownian_increments
 from .debias import DEBIASING, debias
 from .decay import Rates
@@ -32,5 +33,6 @@ __all__ = [
     "level_table",
     "mlmc",
     "mlqmc",
+    "models",
     "multi_index",
 ]
