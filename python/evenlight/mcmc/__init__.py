@@ -5,6 +5,7 @@ chains of any kernel, driven by any sequence.
 """
 
 from .chains import Chains
+from .diagnostics import Diagnostics
 from .driving import DRIVING, LCG, LFSR, Antithetic, Driving, IndependentNumbers, Permuted, Stratified
 from .kernel import Info, Kernel, State, WarmUp
 from .kernels import (
@@ -22,6 +23,8 @@ from .kernels import (
     RandomWalk,
     Slice,
 )
+from .nuts import NUTS
+from .plots import RankRecord, TraceRecord, rank_figure, rank_record, trace_figure, trace_record
 from .run import run
 
 __all__ = [
@@ -31,9 +34,11 @@ __all__ = [
     "LCG",
     "LFSR",
     "MALA",
+    "NUTS",
     "Antithetic",
     "Chains",
     "DelayedRejection",
+    "Diagnostics",
     "Driving",
     "Gibbs",
     "HerdedGibbs",
@@ -47,9 +52,15 @@ __all__ = [
     "Permuted",
     "Proposal",
     "RandomWalk",
+    "RankRecord",
     "Slice",
     "State",
     "Stratified",
+    "TraceRecord",
     "WarmUp",
+    "rank_figure",
+    "rank_record",
     "run",
+    "trace_figure",
+    "trace_record",
 ]
