@@ -88,8 +88,8 @@ bench-quality: setup ## Measure discrepancies against SciPy, and the time that e
 	$(BIN)/python -m benches.quality
 
 .PHONY: bench-estimators
-bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, and the optimizer of mixture weights
-	$(BIN)/python -m benches.estimators
+bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, pypmc and vegas
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.estimators
 
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc

@@ -12,6 +12,7 @@ from evenlight import domains, importance, integrands, lab, mcmc, multilevel, po
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
+from evenlight.quantiles import quantile
 from evenlight.render import Film, Scene, load_scene, render
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "multilevel",
     "points",
     "quality",
+    "quantile",
     "reduction",
     "render",
     "warp",
