@@ -79,12 +79,12 @@ def mlmc(
     ε^(-2 - (gamma - beta) / alpha), where 2^gamma is the growth of cost from level to level.
 
     From four pilot levels on, the number of samples of a level is proportional to the root of variance over cost. A
-    level is added while the bias, bounded by the means of the last three levels, does not fit into the tolerance, or
-    while another level makes the whole cheaper: what bias leaves is the variance's. Tolerances are approached by
+    level is added while the bias, bounded by the means of the last three levels, takes more than half of the tolerance,
+    or while another level makes the whole cheaper: what bias leaves is the variance's. Tolerances are approached by
     halving, so that few samples hang on a pilot's variance. Of the squared tolerance, a quarter is kept for what
-    estimated variances and rates get wrong: errors are 0.6 to 0.9 of the tolerance. Where means of differences fall much
-    more slowly than 2^-l, as for barriers that are looked at only at time steps, give alpha: large tolerances leave no
-    samples to measure it.
+    estimated variances and rates get wrong: errors are 0.6 to 0.9 of the tolerance. Where means of differences fall
+    much more slowly than 2^-l, as for barriers that are looked at only at time steps, give alpha: a large tolerance
+    leaves no samples to measure it.
 
     References: M. B. Giles, "Multilevel Monte Carlo path simulation", Oper. Res. 56(3), 607-617 (2008), and
     "Multilevel Monte Carlo methods", Acta Numerica 24, 259-328 (2015); N. Collier, A.-L. Haji-Ali, F. Nobile, E. von
