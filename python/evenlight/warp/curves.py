@@ -6,8 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from evenlight import _core
+from evenlight.arguments import WORD, SeedLike, integer, seed_number, threads
 
-from .arguments import Floats, SeedLike, integer, real_array, seed_number, threads
+from .arguments import Floats, real_array
 from .base import Warp
 
 __all__ = [
@@ -285,7 +286,7 @@ def curve_points(
            [0.75, 0.75],
            [0.75, 0.25]])
     """
-    count, first = integer("n", n, 0), integer("start", start, 0)
+    count, first = integer("n", n, 0, WORD), integer("start", start, 0, WORD)
     if source not in SOURCES:
         raise ValueError(f"unknown source {source!r}; known: {', '.join(SOURCES)}")
     if first and source in ("stratified", "centered"):
