@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import blue_noise, domains, importance, integrands, lab, points, quality, reduction
+from evenlight import blue_noise, domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -22,6 +22,8 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.quality": quality,
         "evenlight.importance": importance,
         "evenlight.lab": lab,
+        "evenlight.mcmc": mcmc,
+        "evenlight.multilevel": multilevel,
     }
     return [
         (f"{prefix}.{name}", thing)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
 from itertools import pairwise
@@ -11,7 +12,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, blue_noise, cli, domains, importance, integrands, points, rules
+from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -51,11 +52,21 @@ def test_the_example_of_an_integral_runs(capsys: pytest.CaptureFixture[str]) -> 
 
 
 def test_the_example_of_a_mixture_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    *_, example = blocks("python")
+    (example,) = (block for block in blocks("python") if "mixture_estimate" in block)
     names: dict[str, Any] = {}
     exec(example, names)
     assert f"# {capsys.readouterr().out.strip()}" in example
     assert abs(names["estimate"].value - 1.3498980316e-3) < 4 * names["estimate"].standard_error
+
+
+def test_the_example_of_levels_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = (block for block in blocks("python") if "mlmc" in block)
+    names: dict[str, Any] = {}
+    exec(example, names)
+    shown, *table = capsys.readouterr().out.splitlines()
+    assert f"# {shown}" in example
+    assert len(table) == len(names["estimate"].diagnostics["levels"]) + 1
+    assert abs(names["estimate"].value - (math.e - 1)) < 3e-3
 
 
 def commands() -> list[str]:
@@ -87,6 +98,8 @@ FAMILIES = {
     "domains": list(domains.DOMAINS),
     "densities": list(importance.DENSITIES),
     "heuristics": list(importance.HEURISTICS),
+    "kernels": list(mcmc.KERNELS),
+    "driving": list(mcmc.DRIVING),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),

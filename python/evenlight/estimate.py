@@ -49,6 +49,8 @@ class Estimate:
         What the method has to say besides; see there.
     degrees_of_freedom : float
         Of `standard_error`.
+    bias : float or ndarray
+        A bound on what no repetition shows, such as the error of the finest discretization; intervals are wider by it.
     sequential : bool
         Whether the run stopped when its interval was short enough; intervals are then wider, to keep their promise.
     groups : tuple of (float, Moments)
@@ -77,6 +79,7 @@ class Estimate:
     message: str = ""
     diagnostics: dict[str, Any] = field(default_factory=dict)
     degrees_of_freedom: float = math.nan
+    bias: Any = 0.0
     sequential: bool = False
     groups: tuple[tuple[float, Moments], ...] = field(default=(), repr=False)
 
@@ -114,7 +117,7 @@ class Estimate:
             bound = self.diagnostics["bound"]
             return Interval(self.value - bound, self.value + bound)
         low, high = _KINDS[kind](self, level)
-        return Interval(_plain(low), _plain(high))
+        return Interval(_plain(low - self.bias), _plain(high + self.bias))
 
     def half_width(self, level: float) -> Any:
         """Half the length of the interval of Student's t, widened if the run was `sequential`."""
@@ -172,6 +175,7 @@ class Estimate:
         degrees = None if math.isnan(self.degrees_of_freedom) else self.degrees_of_freedom
         return plain | {
             "degrees_of_freedom": degrees,
+            "bias": _json(self.bias),
             "sequential": self.sequential,
             "diagnostics": _json(self.diagnostics),
         }
@@ -288,6 +292,8 @@ def _plain(number: Any) -> Any:
 
 
 def _json(thing: Any) -> Any:
+    if hasattr(thing, "_asdict"):
+        return _json(thing._asdict())
     if isinstance(thing, dict):
         return {str(key): _json(value) for key, value in thing.items()}
     if isinstance(thing, list | tuple):

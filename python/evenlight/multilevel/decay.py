@@ -1,0 +1,93 @@
+"""How fast means and variances of levels fall and costs grow: powers of 2 by a regression that knows its errors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenlight.multilevel.level import LevelRow
+
+__all__ = ["LEAST", "Rates", "given_rate", "measure_rates", "remaining_bias"]
+
+Array = NDArray[np.float64]
+
+LEAST = 0.5
+"""The least α and β that a regression may find (Giles 2015, section 3.4)."""
+_MISFIT = 0.25  # of log2: how far levels stray from a power, besides their statistical error
+
+
+class Rates(NamedTuple):
+    """The exponents of the theorem on the cost of multilevel Monte Carlo.
+
+    Examples
+    --------
+    >>> from evenlight.multilevel import Rates
+    >>> Rates(alpha=1.0, beta=2.0, gamma=1.0).beta
+    2.0
+    """
+
+    alpha: float
+    """Means of differences fall as 2^(-α l)."""
+    beta: float
+    """Variances of differences fall as 2^(-β l)."""
+    gamma: float
+    """Costs grow as 2^(γ l)."""
+
+
+def measure_rates(rows: Sequence[LevelRow], alpha: float | None, beta: float | None) -> Rates:
+    """The rates from levels 1 on, whose differences are of two levels; α and β at least 1/2, or as given.
+
+    Weights are inverse squared errors: those of the means and variances themselves, and a misfit of every level. So
+    the noise of the finest levels, where samples are few, does not count as slow decay. Of several values the slowest
+    counts.
+    """
+    used = [row for row in rows if row.level >= 1]
+    levels = np.array([row.level for row in used], np.float64)
+    n = np.array([row.n for row in used], np.float64)[:, np.newaxis]
+    means, variances, kurtoses = (
+        np.array([np.atleast_1d(getattr(row, name)) for row in used], np.float64)
+        for name in ("mean", "variance", "kurtosis")
+    )
+    spread = np.where(np.isfinite(kurtoses), np.maximum(kurtoses - 1.0, 2.0), 2.0 * np.ones_like(variances))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean_errors = np.sqrt(variances / n) / np.abs(means)
+    costs = np.array([[row.cost] for row in used])
+    return Rates(
+        alpha=max(LEAST, -_slope(levels, np.abs(means), mean_errors)) if alpha is None else alpha,
+        beta=max(LEAST, -_slope(levels, variances, np.sqrt(spread / n))) if beta is None else beta,
+        gamma=_slope(levels, costs, np.zeros_like(costs)),
+    )
+
+
+def remaining_bias(rows: Sequence[LevelRow], alpha: float) -> Array:
+    """A bound on the sum of all means beyond the last level, from those of the last three (Giles 2015, section 3.4)."""
+    last = [row for row in rows if row.level >= 1][-3:]
+    means = [np.abs(row.mean) * 2.0 ** (-alpha * (rows[-1].level - row.level)) for row in last]
+    return np.asarray(np.max(means, axis=0) / (2.0**alpha - 1.0))
+
+
+def given_rate(name: str, rate: float | None) -> float | None:
+    """Return a rate that a caller knows, or raise a ValueError."""
+    if rate is not None and not 0.0 < rate < math.inf:
+        raise ValueError(f"{name} must be above 0, not {rate}")
+    return rate
+
+
+def _slope(levels: Array, values: Array, relative_errors: Array) -> float:
+    """The largest slope of log2 of a column of values in the level; 0 from fewer than two levels."""
+    slopes = [_one_slope(levels, *pair) for pair in zip(values.T, relative_errors.T, strict=True)]
+    return max(slopes, default=0.0)
+
+
+def _one_slope(levels: Array, values: Array, relative_errors: Array) -> float:
+    known = (values > 0) & np.isfinite(values)
+    if known.sum() < 2:
+        return 0.0
+    x, y = levels[known], np.log2(values[known])
+    weights = 1.0 / ((relative_errors[known] / math.log(2)) ** 2 + _MISFIT**2)
+    x = x - (weights @ x) / weights.sum()
+    return float((weights * x) @ y / ((weights * x) @ x))

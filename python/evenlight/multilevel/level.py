@@ -1,0 +1,168 @@
+"""The state of one level: samples by their number, and the sums that everything is judged by."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenlight.integrand import rows_per_block
+from evenlight.multilevel.level_sampler import draw
+from evenlight.points import Engine, Independent
+
+__all__ = ["Level", "LevelRow", "level_points", "plain"]
+
+Array = NDArray[np.float64]
+
+_ROUNDING = 1e-12  # of the mean: differences below it are none
+
+
+class LevelRow(NamedTuple):
+    """A level as a line of a table; arrays where a sample has several values.
+
+    Examples
+    --------
+    >>> from evenlight.multilevel import LevelRow
+    >>> LevelRow(0, 1000, 10.4, 160.0, 1.0).n
+    1000
+    """
+
+    level: Any
+    """Its number, or pair of numbers."""
+    n: int
+    """Samples."""
+    mean: Any
+    """Of the difference, fine minus coarse."""
+    variance: Any
+    """Of the difference of one sample; with evenly spread points, n times that of the mean."""
+    cost: float
+    """Per sample."""
+    kurtosis: Any = math.nan
+    """Of the difference: beyond about 100, its variance is hardly known."""
+    consistency: Any = math.nan
+    """|mean of fine one level below - mean of coarse| over what it may be (Giles 2015); above 1, they do not fit."""
+    fine_mean: Any = math.nan
+    """Of the fine value."""
+    fine_variance: Any = math.nan
+    """Of the fine value of one sample, or as `variance`."""
+
+    def compared(self, below: LevelRow) -> LevelRow:
+        """The row with its consistency: |a - b + c| / (3 (√V_a + √V_b + √V_c)), section 3.3 of Giles (2015).
+
+        a and b are the means of fine values of the level below and of this one, c is that of the difference.
+        """
+        gap = np.abs(below.fine_mean - self.fine_mean + self.mean)
+        variances = (below.fine_variance / below.n, self.fine_variance / self.n, self.variance / self.n)
+        spread = sum(np.sqrt(variance) for variance in variances)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = np.where(gap > _ROUNDING * np.abs(self.fine_mean), gap / (3 * spread), 0.0)
+        return self._replace(consistency=float(ratio) if ratio.ndim == 0 else ratio)
+
+
+def level_points(points: Engine | None, dims: int, level: Any, seed: int) -> Engine:
+    """The points of a level, independent of those of all others; independent points if none are given."""
+    engine = (
+        Independent(dims, seed=seed) if points is None else type(points)(**{**points._spec(), "d": dims}, seed=seed)
+    )
+    for part in np.atleast_1d(level):
+        engine = engine.replicate(int(part))
+    return engine
+
+
+class Level:
+    """Independent samples of one level, as many as asked so far.
+
+    Sample i is a pure function of (seed, level, i). Sums are of powers of deviations from the mean of the first block.
+    """
+
+    def __init__(self, sampler: Any, level: Any, seed: int) -> None:
+        self.level = level
+        self._sampler = sampler
+        self._points = level_points(None, sampler.dims(level), level, seed)
+        self.n = 0
+        self.cost = 0.0
+
+    def extend(self, n: int) -> None:
+        """Draw samples until there are n."""
+        block = rows_per_block(int(self._points.d) * 4)
+        while self.n < n:
+            self._add(self.n, min(n, self.n + block))
+
+    def _add(self, start: int, stop: int) -> None:
+        coupled = draw(self._sampler, self.level, self._points.points(start, stop))
+        difference, fine = coupled.difference, coupled.fine
+        if start == 0:
+            self._center = difference.mean(axis=0)
+            self._fine_center = fine.mean(axis=0)
+            self._powers = np.zeros((4, *difference.shape[1:]))
+            self._fine_powers = np.zeros((2, *difference.shape[1:]))
+        step, fine_step = difference - self._center, fine - self._fine_center
+        square = step * step
+        self._powers += [_sum(step), _dot(step, step), _dot(square, step), _dot(square, square)]
+        self._fine_powers += [_sum(fine_step), _dot(fine_step, fine_step)]
+        self.n = stop
+        self.cost += coupled.cost
+
+    @property
+    def mean(self) -> Array:
+        """Of the difference."""
+        return np.asarray(self._center + self._powers[0] / self.n)
+
+    @property
+    def variance(self) -> Array:
+        """Of the difference of one sample."""
+        first, second = self._powers[:2]
+        return np.asarray(np.maximum(second - first * first / self.n, 0.0) / max(self.n - 1, 1))
+
+    @property
+    def kurtosis(self) -> Array:
+        """Of the difference; NaN where nothing varies."""
+        m1, m2, m3, m4 = self._powers / self.n
+        central = m4 - 4 * m1 * m3 + 6 * m1**2 * m2 - 3 * m1**4
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.asarray(central / (m2 - m1**2) ** 2)
+
+    @property
+    def fine_mean(self) -> Array:
+        """Of the fine value."""
+        return np.asarray(self._fine_center + self._fine_powers[0] / self.n)
+
+    @property
+    def fine_variance(self) -> Array:
+        """Of the fine value of one sample."""
+        first, second = self._fine_powers
+        return np.asarray(np.maximum(second - first * first / self.n, 0.0) / max(self.n - 1, 1))
+
+    @property
+    def cost_per_sample(self) -> float:
+        """As measured."""
+        return self.cost / self.n
+
+    def row(self, below: Level | None) -> LevelRow:
+        """The level as a line of a table; `below` is the next coarser one."""
+        row = LevelRow(
+            self.level,
+            self.n,
+            plain(self.mean),
+            plain(self.variance),
+            self.cost_per_sample,
+            plain(self.kurtosis),
+            fine_mean=plain(self.fine_mean),
+            fine_variance=plain(self.fine_variance),
+        )
+        return row if below is None else row.compared(below.row(None))
+
+
+def plain(number: Any) -> Any:
+    """A float for a number, an array for an array."""
+    return float(number) if np.ndim(number) == 0 else np.asarray(number)
+
+
+def _sum(x: Array) -> Any:
+    return x.sum(axis=0)
+
+
+def _dot(x: Array, y: Array) -> Any:
+    return x @ y if x.ndim == 1 else np.einsum("ij,ij->j", x, y)

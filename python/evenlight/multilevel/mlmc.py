@@ -1,0 +1,224 @@
+"""Multilevel Monte Carlo to a tolerance: independent samples on geometric levels. The method to begin with."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, SupportsIndex
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenlight.arguments import SeedLike, seed_number
+from evenlight.estimate import Estimate
+from evenlight.multilevel.decay import Rates, given_rate, measure_rates, remaining_bias
+from evenlight.multilevel.goal import Goal
+from evenlight.multilevel.level import Level, LevelRow
+from evenlight.multilevel.level_table import sum_of_levels, warn
+
+__all__ = ["mlmc"]
+
+Array = NDArray[np.float64]
+
+_PILOT = 256  # samples of each of the first levels
+_LEAST = 32  # samples of any level: fewer say nothing about a variance
+_ENOUGH = 1.01  # more samples are worth a round if a level lacks more than this (Giles 2015, section 3.4)
+
+
+def mlmc(
+    sampler: Any,
+    *,
+    rmse: float,
+    seed: SeedLike = None,
+    alpha: float | None = None,
+    beta: float | None = None,
+    max_level: SupportsIndex | None = None,
+    max_cost: float = math.inf,
+) -> Estimate:
+    """Estimate the limit of a hierarchy of simulations with a root mean squared error of at most `rmse`.
+
+    Parameters
+    ----------
+    sampler : LevelSampler
+        The model: values of levels l and l - 1 from the same random numbers.
+    rmse : float
+        The tolerance, above 0, for bias and noise together; for each quantity if there are several.
+    seed : int or numpy.random.Generator, optional
+        The same number always gives the same bits; 0 by default. Sample i of a level is a pure function of the seed.
+    alpha, beta : float, optional
+        Rates that are known: means of differences fall as 2^(-alpha l), their variances as 2^(-beta l). Measured by
+        default.
+    max_level : int, optional
+        The finest level to use; by default the sampler's, or 20.
+    max_cost : float, optional
+        The most to spend, in the model's units.
+
+    Returns
+    -------
+    Estimate
+        The sum over levels. `cost` is in the model's units; `bias` bounds what the finest level leaves out, and
+        widens the confidence intervals. The diagnostics hold `levels` (a tuple of `LevelRow`, see `level_table`),
+        `rates` (alpha, beta, gamma), `bias`, `variance` and `warnings`. `converged` is False where a limit came
+        before the tolerance.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument or what the sampler returns is not as above; the message names it.
+
+    Warns
+    -----
+    MultilevelWarning
+        If coarse values of a level do not have the mean of the fine ones one level below, or a variance is hardly
+        known.
+    NotConvergedWarning
+        If a limit came before the tolerance.
+
+    Notes ----- Cost for the tolerance ε: ε^-2 for beta > gamma, ε^-2 (log ε)² for beta = gamma, else ε^(-2 - (gamma -
+    beta) / alpha), where gamma is the growth of cost.
+
+    From three pilot levels on, the number of samples of a level is proportional to the root of variance over cost. A
+    level is added while the bias, bounded by the means of the last three levels, does not fit into the tolerance, or
+    while another level makes the whole cheaper: what bias leaves is the variance's. Tolerances are approached by
+    halving, so that few samples hang on a pilot's variance. Of the squared tolerance, a quarter is kept for what
+    estimated variances and rates get wrong; mean squared errors are therefore about 0.85 of the tolerance.
+
+    References: M. B. Giles, "Multilevel Monte Carlo path simulation", Oper. Res. 56(3), 607-617 (2008), and
+    "Multilevel Monte Carlo methods", Acta Numerica 24, 259-328 (2015); N. Collier, A.-L. Haji-Ali, F. Nobile, E. von
+    Schwerin and R. Tempone, "A continuation multilevel Monte Carlo algorithm", BIT 55, 399-432 (2015).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from evenlight.multilevel import FunctionSampler, mlmc
+    >>> def compound(level, u):  # growth at a random rate, compounded 2^l times instead of continuously
+    ...     def growth(n):
+    ...         return (1 + u[:, 0] / n) ** n
+    ...     return growth(2.0**level), growth(2.0 ** (level - 1))
+    >>> estimate = mlmc(FunctionSampler(compound), rmse=0.002, seed=7)
+    >>> bool(abs(estimate.value - (np.e - 1)) < 0.006)
+    True
+    >>> rates = estimate.diagnostics["rates"]
+    >>> f"{rates.alpha:.1f} {rates.beta:.1f} {rates.gamma:.1f}"
+    '0.9 1.7 1.0'
+    """
+    goal = Goal.of(sampler, rmse, max_level, max_cost, alpha)
+    run = _Run(sampler, seed_number(seed), goal, given_rate("alpha", alpha), given_rate("beta", beta))
+    ends = [run.reach(tolerance) for tolerance in run.tolerances()]
+    return warn(run.estimate(ends[-1]))
+
+
+class _Run:
+    """Levels so far, and what they say."""
+
+    def __init__(self, sampler: Any, seed: int, goal: Goal, alpha: float | None, beta: float | None) -> None:
+        self._sampler, self._seed, self._goal = sampler, seed, goal
+        self._given = (alpha, beta)
+        self._levels: list[Level] = []
+        for _ in range(min(3, goal.max_level + 1)):
+            self._add_level(_PILOT)
+
+    def tolerances(self) -> list[float]:
+        """From the error of the pilot down to the tolerance, halving."""
+        pilot = math.sqrt(max(np.max(level.variance) / level.n for level in self._levels))
+        steps = max(0, math.floor(math.log2(pilot / self._goal.rmse))) if pilot > 0 else 0
+        return [self._goal.rmse * 2.0**step for step in range(steps, -1, -1)]
+
+    def reach(self, rmse: float) -> str:
+        """Add samples and levels until bias and noise are within the tolerance; say what was in the way, if so."""
+        while True:
+            rates = self._rates()
+            bias = self._bias(rates)
+            lacking = self._lacking(self._goal.variance(rmse, bias), rates)
+            if lacking.any():
+                if not self._extend(lacking):
+                    return self._goal.too_expensive
+            elif not self._wants_level(rmse, bias, rates):
+                return ""
+            elif len(self._levels) > self._goal.max_level:
+                return "" if self._goal.fits(rmse, bias) else self._goal.too_coarse
+            elif self._cost() + _LEAST * self._sampler.cost(len(self._levels)) > self._goal.max_cost:
+                return self._goal.too_expensive
+            else:
+                self._add_level(_LEAST)
+
+    def estimate(self, obstacle: str) -> Estimate:
+        rows = self._rows()
+        rates = self._rates()
+        return sum_of_levels(
+            rows,
+            rates,
+            self._bias(rates),
+            replicates=sum(row.n for row in rows),
+            cost=self._cost(),
+            method="mlmc",
+            converged=not obstacle,
+            message=obstacle or "tolerance reached",
+            degrees_of_freedom=_degrees(rows),
+        )
+
+    def _rows(self) -> list[LevelRow]:
+        below = [None, *self._levels[:-1]]
+        return [level.row(coarser) for level, coarser in zip(self._levels, below, strict=True)]
+
+    def _cost(self) -> float:
+        return sum(level.cost for level in self._levels)
+
+    def _rates(self) -> Rates:
+        return measure_rates(self._rows(), *self._given)
+
+    def _bias(self, rates: Rates) -> Any:
+        if self._goal.exact and len(self._levels) == self._goal.max_level + 1:
+            return np.zeros_like(self._levels[0].mean)
+        return remaining_bias(self._rows(), rates.alpha)
+
+    def _variances(self, beta: float) -> Array:
+        """Of all levels, shape (levels, quantities); none much below what the one before lets expect (Giles 2015)."""
+        variances = np.array([np.atleast_1d(level.variance) for level in self._levels])
+        for fine in range(2, len(variances)):
+            variances[fine] = np.maximum(variances[fine], 0.5 * variances[fine - 1] * 2.0**-beta)
+        return variances
+
+    def _lacking(self, variance: Any, rates: Rates) -> Any:
+        """Samples that each level lacks for a variance of the sum: N_l = √(V_l / C_l) Σ √(V_k C_k) / variance."""
+        variances = self._variances(rates.beta)
+        costs = np.array([[level.cost_per_sample] for level in self._levels])
+        n = np.sqrt(variances / costs) * np.sqrt(variances * costs).sum(axis=0) / variance
+        wanted = np.maximum(np.ceil(n.max(axis=1)), _LEAST)
+        have = np.array([level.n for level in self._levels])
+        lacking = np.maximum(wanted - have, 0.0)
+        return lacking if np.any(wanted > _ENOUGH * have) else np.zeros_like(lacking)
+
+    def _extend(self, lacking: Array) -> bool:
+        """Draw the samples, or as many as the limit of cost allows; say whether all."""
+        planned = sum(more * level.cost_per_sample for more, level in zip(lacking, self._levels, strict=True))
+        share = float(min(1.0, max(0.0, self._goal.max_cost - self._cost()) / planned))
+        for more, level in zip(lacking, self._levels, strict=True):
+            level.extend(level.n + int(share * more))
+        return share == 1.0
+
+    def _add_level(self, n: int) -> None:
+        level = Level(self._sampler, len(self._levels), self._seed)
+        level.extend(n)
+        self._levels.append(level)
+
+    def _wants_level(self, rmse: float, bias: Any, rates: Rates) -> bool:
+        """Whether the bias is too large, or the whole is cheaper with another level."""
+        if not self._goal.fits(rmse, bias):
+            return True
+        variances = self._variances(rates.beta)
+        costs = np.array([[level.cost_per_sample] for level in self._levels])
+        roots = np.sqrt(variances * costs).sum(axis=0)
+        next_cost = costs[-1] * 2.0**rates.gamma
+        next_roots = roots + np.sqrt(variances[-1] * 2.0**-rates.beta * next_cost)
+        now = roots**2 / self._goal.variance(rmse, bias)
+        then = next_roots**2 / self._goal.variance(rmse, bias * 2.0**-rates.alpha) + _LEAST * next_cost
+        return float(np.max(then)) < float(np.max(now))
+
+
+def _degrees(rows: list[LevelRow]) -> float:
+    """Welch and Satterthwaite's degrees of freedom of the sum of the levels' means; of several quantities the least."""
+    squares = np.array([np.atleast_1d(np.asarray(row.variance) / row.n) for row in rows])
+    n = np.array([[row.n] for row in rows])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = squares.sum(axis=0) ** 2 / (squares**2 / (n - 1)).sum(axis=0)
+    return float(np.min(np.where(np.isfinite(ratio), ratio, n.sum())))
