@@ -95,7 +95,7 @@ def sample_elimination(
     --------
     >>> from evenlight import blue_noise, quality
     >>> x = blue_noise.sample_elimination(1000, seed=1)
-    >>> bool(quality.minimum_distance(x[:100]) > 0.07)
+    >>> bool(quality.minimum_distance(x[:100]) > 0.06)
     True
     """
     return _points("sample_elimination", (n, dims), integer("candidates", candidates, 1, WORD), seed)
