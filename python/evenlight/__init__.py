@@ -8,7 +8,7 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction, warp
+from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction, smc, warp
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -31,5 +31,6 @@ __all__ = [
     "quality",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]
