@@ -8,6 +8,7 @@ import pytest
 
 import evenlight
 from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
+from evenlight.multilevel import models
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -23,6 +24,7 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.lab": lab,
         "evenlight.mcmc": mcmc,
         "evenlight.multilevel": multilevel,
+        "evenlight.multilevel.models": models,
     }
     return [
         (f"{prefix}.{name}", thing)

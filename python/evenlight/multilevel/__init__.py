@@ -3,6 +3,7 @@
 A model is a `LevelSampler`: from a block of uniform numbers to the fine and the coarse value of the same simulation.
 """
 
+from . import models
 from .brownian import CONSTRUCTIONS, brownian_increments
 from .debias import DEBIASING, debias
 from .decay import Rates
@@ -13,6 +14,7 @@ from .level_sampler import Coupled, Ladder, LevelSampler, MultiIndexSampler
 from .level_table import MultilevelWarning, level_table
 from .mlmc import mlmc
 from .mlqmc import mlqmc
+from .multi_index import multi_index
 
 __all__ = [
     "CONSTRUCTIONS",
@@ -31,4 +33,6 @@ __all__ = [
     "level_table",
     "mlmc",
     "mlqmc",
+    "models",
+    "multi_index",
 ]
