@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
+from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction, smc
 from evenlight.multilevel import models
 
 
@@ -24,6 +24,7 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.lab": lab,
         "evenlight.mcmc": mcmc,
         "evenlight.multilevel": multilevel,
+        "evenlight.smc": smc,
         "evenlight.multilevel.models": models,
     }
     return [

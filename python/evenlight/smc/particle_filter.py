@@ -111,7 +111,7 @@ class ParticleFilter:
         return np.asarray(weights + correction)
 
     def _checked(self, states: Any) -> Array:
-        states = np.asarray(states, np.float64)
-        if states.shape != (self.particles, self.model.dims):
-            raise ValueError(f"states must have shape ({self.particles}, {self.model.dims}), not {states.shape}")
-        return states
+        array = np.asarray(states, np.float64)
+        if array.shape != (self.particles, self.model.dims):
+            raise ValueError(f"states must have shape ({self.particles}, {self.model.dims}), not {array.shape}")
+        return array

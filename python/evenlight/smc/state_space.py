@@ -21,7 +21,25 @@ _GAUSSIAN = Gaussian()
 
 
 def normals(u: Array) -> Array:
-    """Standard normal numbers of uniform ones in [0, 1), of the same shape, by the inverse of the distribution."""
+    """Standard normal numbers of uniform ones in [0, 1), of the same shape, by the inverse of the distribution.
+
+    Parameters
+    ----------
+    u : ndarray of float64
+        Of any shape.
+
+    Returns
+    -------
+    ndarray of float64
+        Of that shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from evenlight import smc
+    >>> smc.normals(np.array([0.5, 0.975])).round(2)
+    array([0.  , 1.96])
+    """
     return np.asarray(_GAUSSIAN.map(u[..., np.newaxis]))[..., 0]
 
 
