@@ -40,7 +40,7 @@ def test_the_queue_of_the_literature() -> None:
     """Mean waiting time 3.138196, and 400 times less variance, at 2^12 chains and 20 randomizations.
 
     The standard error is 3e-4 at a gain of 700 (plain chains have variance 5); Student's t of 19 exceeds 4.5 once
-    in 4,000 runs. The gain from 20 values has a relative error of 45 %, so that 400 is missed once in 10 runs of other seeds.
+    in 4,000 runs. The gain from 20 values has a relative error of 45 %: 400 is missed by about one seed in ten.
     """
     queue = smc.LindleyQueue(100)
     assert abs(queue.exact - 3.138196) < 1e-6
