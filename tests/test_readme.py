@@ -70,6 +70,12 @@ def test_the_example_of_levels_runs(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs(names["estimate"].value - (math.e - 1)) < 3e-3
 
 
+def test_the_example_of_chains_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = (block for block in blocks("python") if "evenlight.mcmc" in block)
+    exec(example, {})
+    assert f"# {' '.join(capsys.readouterr().out.split())}\n" in example
+
+
 def commands() -> list[str]:
     """Lines of the shell blocks that call the program."""
     return [line for block in blocks("sh") for line in block.splitlines() if line.startswith("evenlight ")]

@@ -14,7 +14,7 @@ from evenlight.intervals import Interval
 from evenlight.moments import Moments
 from evenlight.stopping import sequential_quantile
 
-__all__ = ["Estimate", "NotConvergedWarning", "from_error", "from_moments"]
+__all__ = ["Estimate", "NotConvergedWarning", "from_error", "from_moments", "plain"]
 
 Array = NDArray[np.float64]
 
@@ -117,7 +117,7 @@ class Estimate:
             bound = self.diagnostics["bound"]
             return Interval(self.value - bound, self.value + bound)
         low, high = _KINDS[kind](self, level)
-        return Interval(_plain(low - self.bias), _plain(high + self.bias))
+        return Interval(plain(low - self.bias), plain(high + self.bias))
 
     def half_width(self, level: float) -> Any:
         """Half the length of the interval of Student's t, widened if the run was `sequential`."""
@@ -226,8 +226,8 @@ def from_moments(groups: tuple[tuple[float, Moments], ...], *, method: str, cost
     value = sum(share * pooled[size].mean for size, share in shares.items())
     variances = [(share * pooled[size].standard_error) ** 2 for size, share in shares.items()]
     return Estimate(
-        value=_plain(value),
-        standard_error=_plain(np.sqrt(sum(variances))),
+        value=plain(value),
+        standard_error=plain(np.sqrt(sum(variances))),
         n=round(total),
         replicates=sum(moments.count for moments in pooled.values()),
         cost=cost,
@@ -285,7 +285,7 @@ def _percentile_t(estimate: Estimate, level: float) -> tuple[Any, Any]:
 _KINDS = {"t": _student, "unskewed": _without_skewness, "percentile-t": _percentile_t}
 
 
-def _plain(number: Any) -> Any:
+def plain(number: Any) -> Any:
     """A float for a number, an array for an array."""
     array = np.asarray(number, np.float64)
     return float(array) if array.ndim == 0 else array

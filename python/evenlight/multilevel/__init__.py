@@ -14,6 +14,7 @@ from .level_sampler import Coupled, Ladder, LevelSampler, MultiIndexSampler
 from .level_table import MultilevelWarning, level_table
 from .mlmc import mlmc
 from .mlqmc import mlqmc
+from .multi_index import multi_index
 
 __all__ = [
     "CONSTRUCTIONS",
@@ -33,4 +34,5 @@ __all__ = [
     "mlmc",
     "mlqmc",
     "models",
+    "multi_index",
 ]

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from evenlight.multilevel.level import LevelRow
 
-__all__ = ["LEAST", "Rates", "given_rate", "measure_rates", "remaining_bias"]
+__all__ = ["LEAST", "MISFIT", "Rates", "given_rate", "measure_rates", "relative_errors", "remaining_bias"]
 
 Array = NDArray[np.float64]
 
 LEAST = 0.5
 """The least α and β that a regression may find (Giles 2015, section 3.4)."""
-_MISFIT = 0.25  # of log2: how far levels stray from a power, besides their statistical error
+MISFIT = 0.25
+"""Of log2: how far levels stray from a power, besides their statistical error."""
 
 
 class Rates(NamedTuple):
@@ -47,20 +48,27 @@ def measure_rates(rows: Sequence[LevelRow], alpha: float | None, beta: float | N
     """
     used = [row for row in rows if row.level >= 1]
     levels = np.array([row.level for row in used], np.float64)
-    n = np.array([row.n for row in used], np.float64)[:, np.newaxis]
-    means, variances, kurtoses = (
-        np.array([np.atleast_1d(getattr(row, name)) for row in used], np.float64)
-        for name in ("mean", "variance", "kurtosis")
-    )
-    spread = np.where(np.isfinite(kurtoses), np.maximum(kurtoses - 1.0, 2.0), 2.0 * np.ones_like(variances))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean_errors = np.sqrt(variances / n) / np.abs(means)
+    means, variances = (np.array([np.atleast_1d(getattr(row, name)) for row in used]) for name in ("mean", "variance"))
     costs = np.array([[row.cost] for row in used])
-    return Rates(
-        alpha=max(LEAST, -_slope(levels, np.abs(means), mean_errors)) if alpha is None else alpha,
-        beta=max(LEAST, -_slope(levels, variances, np.sqrt(spread / n))) if beta is None else beta,
-        gamma=_slope(levels, costs, np.zeros_like(costs)),
+    if alpha is None:
+        alpha = max(LEAST, -_slope(levels, np.abs(means), relative_errors(used, "mean")))
+    if beta is None:
+        beta = max(LEAST, -_slope(levels, variances, relative_errors(used, "variance")))
+    return Rates(alpha, beta, gamma=_slope(levels, costs, np.zeros_like(costs)))
+
+
+def relative_errors(rows: Sequence[LevelRow], name: str) -> Array:
+    """Standard errors of the mean or the variance of each level over their values, shape (levels, quantities)."""
+    n = np.array([[row.n] for row in rows], np.float64)
+    means, variances, kurtoses = (
+        np.array([np.atleast_1d(getattr(row, part)) for row in rows], np.float64)
+        for part in ("mean", "variance", "kurtosis")
     )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        if name == "mean":
+            return np.asarray(np.sqrt(variances / n) / np.abs(means))
+        spread = np.where(np.isfinite(kurtoses), np.maximum(kurtoses - 1.0, 2.0), 2.0)
+        return np.asarray(np.sqrt(spread / n) * np.ones_like(variances))
 
 
 def remaining_bias(rows: Sequence[LevelRow], alpha: float) -> Array:
@@ -88,6 +96,6 @@ def _one_slope(levels: Array, values: Array, relative_errors: Array) -> float:
     if known.sum() < 2:
         return 0.0
     x, y = levels[known], np.log2(values[known])
-    weights = 1.0 / ((relative_errors[known] / math.log(2)) ** 2 + _MISFIT**2)
+    weights = 1.0 / ((relative_errors[known] / math.log(2)) ** 2 + MISFIT**2)
     x = x - (weights @ x) / weights.sum()
     return float((weights * x) @ y / ((weights * x) @ x))

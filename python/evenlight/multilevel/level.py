@@ -48,14 +48,16 @@ class LevelRow(NamedTuple):
     fine_variance: Any = math.nan
     """Of the fine value of one sample, or as `variance`."""
 
-    def compared(self, below: LevelRow) -> LevelRow:
+    def compared(self, *below: LevelRow, signs: tuple[int, ...] = (1,)) -> LevelRow:
         """The row with its consistency: |a - b + c| / (3 (√V_a + √V_b + √V_c)), section 3.3 of Giles (2015).
 
-        a and b are the means of fine values of the level below and of this one, c is that of the difference.
+        a is the signed sum of the means of fine values of the levels below, b that of this one, c is the mean of the
+        difference.
         """
-        gap = np.abs(below.fine_mean - self.fine_mean + self.mean)
-        variances = (below.fine_variance / below.n, self.fine_variance / self.n, self.variance / self.n)
-        spread = sum(np.sqrt(variance) for variance in variances)
+        expected = sum(sign * np.asarray(row.fine_mean) for sign, row in zip(signs, below, strict=True))
+        gap = np.abs(expected - self.fine_mean + self.mean)
+        variances = [row.fine_variance / row.n for row in (*below, self)]
+        spread = sum(np.sqrt(variance) for variance in [*variances, self.variance / self.n])
         with np.errstate(invalid="ignore", divide="ignore"):
             ratio = np.where(gap > _ROUNDING * np.abs(self.fine_mean), gap / (3 * spread), 0.0)
         return self._replace(consistency=float(ratio) if ratio.ndim == 0 else ratio)

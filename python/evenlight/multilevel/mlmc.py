@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from evenlight.arguments import SeedLike, seed_number
 from evenlight.estimate import Estimate
+from evenlight.multilevel.allocation import LEAST, degrees_of_freedom, extend, lacking
 from evenlight.multilevel.decay import Rates, given_rate, measure_rates, remaining_bias
 from evenlight.multilevel.goal import Goal
 from evenlight.multilevel.level import Level, LevelRow
@@ -20,8 +21,6 @@ __all__ = ["mlmc"]
 Array = NDArray[np.float64]
 
 _PILOT = 256  # samples of each of the first levels
-_LEAST = 32  # samples of any level: fewer say nothing about a variance
-_ENOUGH = 1.01  # more samples are worth a round if a level lacks more than this (Giles 2015, section 3.4)
 
 
 def mlmc(
@@ -128,18 +127,18 @@ class _Run:
         while True:
             rates = self._rates()
             bias = self._bias(rates)
-            lacking = self._lacking(self._goal.variance(rmse, bias), rates)
-            if lacking.any():
-                if not self._extend(lacking):
+            more = lacking(self._levels, self._variances(rates.beta), self._goal.variance(rmse, bias))
+            if more.any():
+                if not extend(self._levels, more, self._goal.max_cost - self._cost()):
                     return self._goal.too_expensive
             elif not self._wants_level(rmse, bias, rates):
                 return ""
             elif len(self._levels) > self._goal.max_level:
                 return "" if self._goal.fits(rmse, bias) else self._goal.too_coarse
-            elif self._cost() + _LEAST * self._sampler.cost(len(self._levels)) > self._goal.max_cost:
+            elif self._cost() + LEAST * self._sampler.cost(len(self._levels)) > self._goal.max_cost:
                 return self._goal.too_expensive
             else:
-                self._add_level(_LEAST)
+                self._add_level(LEAST)
 
     def estimate(self, obstacle: str) -> Estimate:
         rows = self._rows()
@@ -153,7 +152,7 @@ class _Run:
             method="mlmc",
             converged=not obstacle,
             message=obstacle or "tolerance reached",
-            degrees_of_freedom=_degrees(rows),
+            degrees_of_freedom=degrees_of_freedom(rows),
         )
 
     def _rows(self) -> list[LevelRow]:
@@ -178,24 +177,6 @@ class _Run:
             variances[fine] = np.maximum(variances[fine], 0.5 * variances[fine - 1] * 2.0**-beta)
         return variances
 
-    def _lacking(self, variance: Any, rates: Rates) -> Any:
-        """Samples that each level lacks for a variance of the sum: N_l = √(V_l / C_l) Σ √(V_k C_k) / variance."""
-        variances = self._variances(rates.beta)
-        costs = np.array([[level.cost_per_sample] for level in self._levels])
-        n = np.sqrt(variances / costs) * np.sqrt(variances * costs).sum(axis=0) / variance
-        wanted = np.maximum(np.ceil(n.max(axis=1)), _LEAST)
-        have = np.array([level.n for level in self._levels])
-        lacking = np.maximum(wanted - have, 0.0)
-        return lacking if np.any(wanted > _ENOUGH * have) else np.zeros_like(lacking)
-
-    def _extend(self, lacking: Array) -> bool:
-        """Draw the samples, or as many as the limit of cost allows; say whether all."""
-        planned = sum(more * level.cost_per_sample for more, level in zip(lacking, self._levels, strict=True))
-        share = float(min(1.0, max(0.0, self._goal.max_cost - self._cost()) / planned))
-        for more, level in zip(lacking, self._levels, strict=True):
-            level.extend(level.n + int(share * more))
-        return share == 1.0
-
     def _add_level(self, n: int) -> None:
         level = Level(self._sampler, len(self._levels), self._seed)
         level.extend(n)
@@ -211,14 +192,5 @@ class _Run:
         next_cost = costs[-1] * 2.0**rates.gamma
         next_roots = roots + np.sqrt(variances[-1] * 2.0**-rates.beta * next_cost)
         now = roots**2 / self._goal.variance(rmse, bias)
-        then = next_roots**2 / self._goal.variance(rmse, bias * 2.0**-rates.alpha) + _LEAST * next_cost
+        then = next_roots**2 / self._goal.variance(rmse, bias * 2.0**-rates.alpha) + LEAST * next_cost
         return float(np.max(then)) < float(np.max(now))
-
-
-def _degrees(rows: list[LevelRow]) -> float:
-    """Welch and Satterthwaite's degrees of freedom of the sum of the levels' means; of several quantities the least."""
-    squares = np.array([np.atleast_1d(np.asarray(row.variance) / row.n) for row in rows])
-    n = np.array([[row.n] for row in rows])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = squares.sum(axis=0) ** 2 / (squares**2 / (n - 1)).sum(axis=0)
-    return float(np.min(np.where(np.isfinite(ratio), ratio, n.sum())))
