@@ -84,7 +84,7 @@ bench-points: setup $(PEERS) ## Measure the speed of points against SciPy, QMCPy
 	$(BIN)/python -m benches.points
 
 .PHONY: bench-quality
-bench-quality: setup ## Measure discrepancies against SciPy, and the time that exact ones take
+bench-quality: setup $(PEERS) ## Measure discrepancies, indices and sorts against SciPy, SALib and NumPy
 	$(BIN)/python -m benches.quality
 
 .PHONY: bench-estimators

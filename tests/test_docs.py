@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
+from evenlight import blue_noise, domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
 from evenlight.multilevel import models
 
 
@@ -16,6 +16,7 @@ def public_names() -> list[tuple[str, object]]:
     modules = {
         "evenlight": evenlight,
         "evenlight.points": points,
+        "evenlight.blue_noise": blue_noise,
         "evenlight.domains": domains,
         "evenlight.reduction": reduction,
         "evenlight.integrands": integrands,

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, domains, importance, integrands, mcmc, points, rules
+from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules
 from evenlight.multilevel import models
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -99,6 +99,7 @@ FAMILIES = {
     "sequences": [info.name for info in points.available()],
     "scrambles": _core.scrambles(),
     "warps": _core.warps(),
+    "blue noise": [info.name for info in blue_noise.available()],
     "rules": list(rules.RULES),
     "integrands": list(integrands.INTEGRANDS),
     "domains": list(domains.DOMAINS),
@@ -122,7 +123,7 @@ FAMILIES = {
 
 
 def test_the_table_of_families_is_that_of_the_registries() -> None:
-    rows = re.findall(r"^\| (\w+) \| (.*?) \| `(.*?)` \|$", README, flags=re.MULTILINE)
+    rows = re.findall(r"^\| (\w+(?: \w+)?) \| (.*?) \| `(.*?)` \|$", README, flags=re.MULTILINE)
     members = {family: re.findall(r"`(\w+)`", names) for family, names, _ in rows}
     assert {family: sorted(names) for family, names in members.items()} == {
         family: sorted(names) for family, names in FAMILIES.items()

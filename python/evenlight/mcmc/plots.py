@@ -19,7 +19,15 @@ __all__ = ["RankRecord", "TraceRecord", "rank_figure", "rank_record", "trace_fig
 
 @dataclass(frozen=True, eq=False)
 class TraceRecord:
-    """Where chains were."""
+    """Where chains were.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from evenlight.mcmc import TraceRecord, trace_figure
+    >>> len(trace_figure(TraceRecord(np.arange(3), np.zeros((4, 3, 2)))).axes)
+    2
+    """
 
     steps: NDArray[np.int64]
     """Numbers of the steps shown."""
@@ -29,7 +37,15 @@ class TraceRecord:
 
 @dataclass(frozen=True, eq=False)
 class RankRecord:
-    """How the ranks of each chain's draws, among those of all chains, are spread: evenly if the chains agree."""
+    """How the ranks of each chain's draws, among those of all chains, are spread: evenly if the chains agree.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from evenlight.mcmc import RankRecord, rank_figure
+    >>> len(rank_figure(RankRecord(np.full((4, 10, 2), 50.0), expected=50.0)).axes)
+    2
+    """
 
     counts: Array
     """Shape (chains, bins, d)."""
