@@ -91,6 +91,10 @@ bench-quality: setup $(PEERS) ## Measure discrepancies, indices and sorts agains
 bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, pypmc and vegas
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.estimators
 
+.PHONY: bench-multilevel
+bench-multilevel: setup $(PEERS) ## Measure multilevel methods on an Asian option against QMCPy
+	OMP_NUM_THREADS=1 $(BIN)/python -m benches.multilevel
+
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps

@@ -19,6 +19,7 @@ from evenlight import (
     points,
     quality,
     reduction,
+    smc,
     warp,
 )
 from evenlight._core import __version__
@@ -46,5 +47,6 @@ __all__ = [
     "quantile",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]
