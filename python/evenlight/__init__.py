@@ -19,6 +19,7 @@ from evenlight import (
     points,
     quality,
     reduction,
+    smc,
     warp,
 )
 from evenlight._core import __version__
@@ -44,5 +45,6 @@ __all__ = [
     "quality",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]
