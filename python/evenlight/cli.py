@@ -122,9 +122,11 @@ def _integrate(options: argparse.Namespace) -> int:
         )
     low, high = estimate.confidence_interval(options.level)
     known = {"exact": problem.exact, "interval": None if math.isnan(low) else [low, high], "level": options.level}
-    print(
-        json.dumps(estimate.to_dict() | known, indent=2) if options.json else f"{estimate!r}, exact {problem.exact!r}"
-    )
+    if options.json:
+        print(json.dumps(estimate.to_dict() | known, indent=2))
+    else:
+        interval = "" if math.isnan(low) else f", {options.level:.4g} interval [{low:.8g}, {high:.8g}]"
+        print(f"{estimate!r}{interval}, exact {problem.exact!r}")
     return 0
 
 
