@@ -44,7 +44,7 @@ def test_every_table_has_source_license_and_script(name: str) -> None:
 
 
 def test_the_script_makes_the_same_direction_numbers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The one table whose source is installed; the script of the other downloads it and checks a hash."""
+    """The one table whose source is installed; the scripts of the others check the hash of theirs."""
     script = shutil.copy(DATA / "make_sobol.py", tmp_path)
     runpy.run_path(str(script), run_name="__main__")
     assert "21201 dimensions" in capsys.readouterr().out

@@ -8,11 +8,25 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import domains, importance, integrands, lab, points, quality, reduction, warp
+from evenlight import (
+    blue_noise,
+    domains,
+    importance,
+    integrands,
+    lab,
+    mcmc,
+    multilevel,
+    points,
+    quality,
+    reduction,
+    smc,
+    warp,
+)
 from evenlight._core import __version__
 from evenlight.bounce_statistics import BounceStatistics, bounce_statistics
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
+from evenlight.quantiles import quantile
 from evenlight.render import Film, Scene, load_scene, render
 
 __all__ = [
@@ -21,6 +35,7 @@ __all__ = [
     "Film",
     "Scene",
     "__version__",
+    "blue_noise",
     "bounce_statistics",
     "domains",
     "importance",
@@ -28,9 +43,13 @@ __all__ = [
     "integrate",
     "lab",
     "load_scene",
+    "mcmc",
+    "multilevel",
     "points",
     "quality",
+    "quantile",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]

@@ -11,14 +11,15 @@
 #![cfg(feature = "statistics")]
 #![expect(clippy::print_stdout, reason = "the measured errors are worth reading")]
 
+mod replicates;
+
 use evenlight_points::convert::unit_f64;
 use evenlight_points::digital_net::DigitalNet;
 use evenlight_points::scramble::Randomization;
 use evenlight_points::scramble::owen::nested_uniform_scramble_32;
 use evenlight_points::sequences::sobol::sobol;
 use evenlight_points::{PointSet, Seed};
-
-const DIMS: usize = 4;
+use replicates::{DIMS, Mean, SquaredErrors, deviation};
 
 /// What scrambles the points of a net.
 #[derive(Clone, Copy)]
@@ -76,57 +77,13 @@ impl Net {
     }
 }
 
-/// The mean of a quantity over replicates, with its standard error.
-#[derive(Clone, Copy, Default)]
-struct Mean {
-    count: f64,
-    sum: f64,
-    squares: f64,
-}
-
-impl Mean {
-    fn add(&mut self, x: f64) {
-        *self = Self { count: self.count + 1.0, sum: self.sum + x, squares: self.squares + x * x };
-    }
-
-    fn value(self) -> f64 {
-        self.sum / self.count
-    }
-
-    /// The square of the standard error.
-    fn variance(self) -> f64 {
-        (self.squares / self.count - self.value().powi(2)).max(0.0) / (self.count - 1.0)
-    }
-}
-
-/// A difference in units of its standard error; what does not vary must be equal.
-fn deviation(difference: f64, variance: f64) -> f64 {
-    if difference == 0.0 { 0.0 } else { difference.abs() / variance.sqrt() }
-}
-
-/// Integrands over the four-dimensional cube: a name, the function and its integral.
-type Integrand = (&'static str, fn(&[f64]) -> f64, f64);
-
-/// Additive, smooth, with a kink (E |Σx − 2| = 7/15), with a jump.
-const INTEGRANDS: [Integrand; 5] = [
-    ("sum of x", |x| x.iter().sum(), 2.0),
-    ("sum of x²", |x| x.iter().map(|x| x * x).sum(), 4.0 / 3.0),
-    ("product of x exp x", |x| x.iter().map(|x| x * x.exp()).product(), 1.0),
-    ("kink", |x| (x.iter().sum::<f64>() - 2.0).max(0.0), 7.0 / 30.0),
-    ("jump", |x| f64::from(u8::from(x.iter().sum::<f64>() >= 2.0)), 0.5),
-];
-
 /// The mean squared errors of the integrands over at least 512 replicates.
-fn squared_errors(scramble: Scramble, m: u32, stream: u64) -> [Mean; INTEGRANDS.len()] {
+fn squared_errors(scramble: Scramble, m: u32, stream: u64) -> SquaredErrors {
     let n = 1_usize << m;
     let replicates = ((1 << 23) / n as u64).min(8192);
     let seeds = (0..replicates).map(|r| Seed::new(stream).split(20, m.into()).replicate(r));
-    let mut errors = [Mean::default(); INTEGRANDS.len()];
-    Net::new(scramble).replicates(n, seeds, |rows| {
-        for (error, (_, f, truth)) in errors.iter_mut().zip(INTEGRANDS) {
-            error.add((rows.chunks_exact(DIMS).map(f).sum::<f64>() / n as f64 - truth).powi(2));
-        }
-    });
+    let mut errors = SquaredErrors::default();
+    Net::new(scramble).replicates(n, seeds, |rows| errors.add(rows));
     errors
 }
 
@@ -135,17 +92,9 @@ fn errors_deviate(scramble: Scramble) -> (f64, f64) {
     let (mut from_exact, mut from_theory) = (0.0_f64, 0.0_f64);
     for m in 4..=14 {
         let (ours, exact) = (squared_errors(scramble, m, 1), squared_errors(EXACT, m, 2));
-        for ((ours, exact), (name, ..)) in ours.iter().zip(exact).zip(INTEGRANDS) {
-            let z = deviation(ours.value() - exact.value(), ours.variance() + exact.variance());
-            from_exact = from_exact.max(z);
-            let rmse = [*ours, exact].map(|mean| mean.value().sqrt());
-            println!("n = 2^{m}, {name}: {:.3e}, exact {:.3e}, {z:.1} standard errors", rmse[0], rmse[1]);
-        }
-        // without interaction, stratification alone decides: Var = d / (12 n³)
-        let theory = DIMS as f64 / (12.0 * 2f64.powi(3 * m as i32));
-        for mean in [ours[0], exact[0]] {
-            from_theory = from_theory.max(deviation(mean.value() - theory, mean.variance()));
-        }
+        from_exact = from_exact.max(ours.deviation(&exact, &format!("n = 2^{m}")));
+        let of_theory = [ours, exact].map(|errors| errors.deviation_of_sum(1 << m));
+        from_theory = of_theory.into_iter().fold(from_theory, f64::max);
     }
     (from_exact, from_theory)
 }

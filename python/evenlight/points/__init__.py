@@ -34,6 +34,7 @@ from .philox import Philox
 from .polynomial_lattice import PolynomialLattice
 from .progressive_multi_jittered import ProgressiveMultiJittered
 from .sobol import Sobol
+from .sobol_tkrg import SobolTkrg
 from .stratified import Stratified
 from .sz import Sz
 from .van_der_corput import VanDerCorput
@@ -65,6 +66,7 @@ __all__ = [
     "ProgressiveMultiJittered",
     "SequenceInfo",
     "Sobol",
+    "SobolTkrg",
     "Stratified",
     "Sz",
     "VanDerCorput",
@@ -84,6 +86,7 @@ SEQUENCES: dict[str, type[Engine]] = {
         Halton,
         Independent,
         NiederreiterXing,
+        SobolTkrg,
         InterlacedSobol,
         DigitalNet,
         VanDerCorput,

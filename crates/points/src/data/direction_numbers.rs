@@ -26,15 +26,23 @@ static SOBOL: &[u8] = include_bytes!("sobol.bin");
 pub const fn direction_numbers(dim: usize) -> [u64; BITS] {
     let polynomial = little_endian(dim * RECORD + NUMBERS, RECORD - NUMBERS) as u32;
     let degree = polynomial.ilog2() as usize;
+    // Dimension 0 has degree 0 and the matrix of van der Corput.
+    let given = if degree == 0 { BITS } else { degree };
     let mut columns = [0; BITS];
     let mut k = 0;
+    while k < given {
+        columns[k] = initial_number(dim, k, degree) << (BITS - 1 - k);
+        k += 1;
+    }
+    continued(columns, given, polynomial)
+}
+
+/// All columns, from as many as the degree of the polynomial, or from all of them.
+pub(super) const fn continued(mut columns: [u64; BITS], given: usize, polynomial: u32) -> [u64; BITS] {
+    let degree = polynomial.ilog2() as usize;
+    let mut k = given;
     while k < BITS {
-        // Dimension 0 has degree 0 and the matrix of van der Corput.
-        columns[k] = if k < degree || degree == 0 {
-            initial_number(dim, k, degree) << (BITS - 1 - k)
-        } else {
-            recurrence(&columns, k, degree, polynomial)
-        };
+        columns[k] = recurrence(&columns, k, degree, polynomial);
         k += 1;
     }
     columns

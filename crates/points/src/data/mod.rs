@@ -5,3 +5,5 @@ pub(crate) mod direction_numbers;
 pub(crate) mod generating_vectors;
 #[cfg(feature = "std")]
 pub(crate) mod niederreiter_xing;
+#[cfg(feature = "std")]
+pub(crate) mod sobol_tkrg;

@@ -28,6 +28,7 @@ pub mod philox;
 pub mod polynomial_lattice;
 pub mod progressive_multi_jittered;
 pub mod sobol;
+pub mod sobol_tkrg;
 pub mod stratified;
 pub mod sz;
 pub mod van_der_corput;
@@ -114,6 +115,7 @@ pub static ALL: &[&Entry] = &[
     &halton::ENTRY,
     &independent::ENTRY,
     &niederreiter_xing::ENTRY,
+    &sobol_tkrg::ENTRY,
     &interlaced_sobol::ENTRY,
     &digital_net::ENTRY,
     &van_der_corput::ENTRY,

@@ -1,0 +1,66 @@
+"""Markov chains: kernels, what drives them (random or evenly spread numbers), and what their draws say.
+
+A kernel is plain settings with `dims`, `init` and `step`; the uniform numbers of a step are an argument. `run` runs
+chains of any kernel, driven by any sequence.
+"""
+
+from .chains import Chains
+from .diagnostics import Diagnostics
+from .driving import DRIVING, LCG, LFSR, Antithetic, Driving, IndependentNumbers, Permuted, Stratified
+from .kernel import Info, Kernel, State, WarmUp
+from .kernels import (
+    HMC,
+    KERNELS,
+    MALA,
+    DelayedRejection,
+    Gibbs,
+    HerdedGibbs,
+    Independence,
+    MetropolisHastings,
+    MultipleTry,
+    ParallelTempering,
+    Proposal,
+    RandomWalk,
+    Slice,
+)
+from .nuts import NUTS
+from .plots import RankRecord, TraceRecord, rank_figure, rank_record, trace_figure, trace_record
+from .run import run
+
+__all__ = [
+    "DRIVING",
+    "HMC",
+    "KERNELS",
+    "LCG",
+    "LFSR",
+    "MALA",
+    "NUTS",
+    "Antithetic",
+    "Chains",
+    "DelayedRejection",
+    "Diagnostics",
+    "Driving",
+    "Gibbs",
+    "HerdedGibbs",
+    "Independence",
+    "IndependentNumbers",
+    "Info",
+    "Kernel",
+    "MetropolisHastings",
+    "MultipleTry",
+    "ParallelTempering",
+    "Permuted",
+    "Proposal",
+    "RandomWalk",
+    "RankRecord",
+    "Slice",
+    "State",
+    "Stratified",
+    "TraceRecord",
+    "WarmUp",
+    "rank_figure",
+    "rank_record",
+    "run",
+    "trace_figure",
+    "trace_record",
+]

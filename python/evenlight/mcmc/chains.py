@@ -1,0 +1,176 @@
+"""What a run of chains leaves: positions, what the kernel told, and estimates with honest errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from evenlight.estimate import Estimate, from_moments
+from evenlight.moments import Moments
+
+from .diagnostics import Diagnostics, diagnose
+from .driving import Driving
+from .kernel import Array
+
+__all__ = ["Chains"]
+
+
+@dataclass(frozen=True, eq=False)
+class Chains:
+    """Chains of one run.
+
+    Attributes
+    ----------
+    draws : ndarray of float64, shape (chains, n, d), or None
+        The position after each step that counts; None if they were not kept.
+    info : dict
+        What the kernel told, by name: arrays (chains, n, ...).
+    means : dict
+        Means of the functionals over each chain, shape (chains, ...).
+    kernel : Kernel
+        With the settings that a warm-up has left.
+    points : Driving
+        What drove the chains.
+    state : State
+        At the end.
+    seed : int
+        Of the run.
+    steps_before : tuple of int
+        Steps of warm-up and of burn-in.
+
+    Examples
+    --------
+    >>> from evenlight.mcmc import RandomWalk, run
+    >>> chains = run(RandomWalk(lambda x: -0.5 * (x**2).sum(axis=1)), [0.0, 0.0], n=100, chains=8, seed=1)
+    >>> chains.draws.shape, chains.acceptance.shape, chains.estimate(lambda x: x).value.shape
+    ((8, 100, 2), (8,), (2,))
+    """
+
+    draws: Array | None
+    info: dict[str, Any]
+    means: dict[str, Array]
+    kernel: Any
+    points: Driving
+    state: Any
+    seed: int
+    steps_before: tuple[int, int] = field(default=(0, 0))
+
+    @property
+    def n(self) -> int:
+        """The steps that count, of each chain."""
+        return int(self.info["acceptance"].shape[1])
+
+    @property
+    def acceptance(self) -> Array:
+        """The mean probability of acceptance of each chain."""
+        return np.asarray(self.info["acceptance"].mean(axis=1))
+
+    def estimate(self, functional: str | Callable[[Any], Any]) -> Estimate:
+        """The mean of a function under the target, with a standard error from independent repetitions.
+
+        Independent numbers: every chain is a repetition. Driving sequences: every randomization is, with all chains
+        that it couples. The error says how much the run varies, not what all chains share: too short a burn-in, or a
+        mode that none of them has found.
+
+        Parameters
+        ----------
+        functional : callable or str
+            From positions (m, d) to values (m,) or (m, ...), or the name of one that was given to `run`.
+
+        Returns
+        -------
+        Estimate
+            NaN as the standard error of a single repetition. `diagnostics` has the means of the repetitions.
+
+        Raises
+        ------
+        ValueError
+            If there is no such functional, the draws were not kept, or a value is not finite.
+        """
+        means = self._chain_means(functional)
+        groups = means.reshape(-1, self.points.coupled, *means.shape[1:]).mean(axis=1)
+        size = self.n * self.points.coupled
+        return from_moments(
+            ((float(size), Moments.of(groups)),),
+            method=f"{self.kernel.name} driven by {self.points.name}",
+            cost=float(len(means) * (self.n + sum(self.steps_before))),
+            diagnostics={"replicates": groups, "points": (f"chains of seed {self.seed}",)},
+        )
+
+    def diagnostics(self, functional: Callable[[Any], Any] | None = None) -> Diagnostics:
+        """Whether the chains agree, and what their draws are worth, by ArviZ.
+
+        Effective sample sizes and Monte Carlo errors presume chains and steps that are independent, but for what a
+        kernel remembers: they are NaN for runs that a driving sequence has driven; `estimate` has errors there.
+
+        Parameters
+        ----------
+        functional : callable, optional
+            From positions (m, d) to values (m,) or (m, k); the positions themselves by default.
+
+        Returns
+        -------
+        Diagnostics
+            For each of the d dimensions, or k values.
+
+        Raises
+        ------
+        ValueError
+            If the draws were not kept, or a value is not finite.
+        """
+        values = self._values(functional or (lambda x: x))
+        independent = self.points.independent_steps and self.points.coupled == 1
+        return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent)
+
+    def to_arviz(self) -> Any:
+        """Convert to what ArviZ plots and summarizes: a group `posterior` with `x`, a group `sample_stats`.
+
+        Returns
+        -------
+        xarray.DataTree
+            ArviZ's InferenceData, from its version 1 on.
+
+        Raises
+        ------
+        ImportError
+            If arviz-base is not installed.
+        ValueError
+            If the draws were not kept.
+        """
+        try:
+            import arviz_base
+        except ImportError:
+            raise ImportError("to_arviz needs arviz-base: pip install 'evenlight[arviz]'") from None
+        names = {"acceptance": "acceptance_rate", "gradients": "n_steps"}
+        told = {names.get(name, name): column for name, column in self.info.items()}
+        tree = arviz_base.from_dict({"posterior": {"x": self.kept_draws()}, "sample_stats": told})
+        tree.attrs.update(kernel=self.kernel.name, driven_by=repr(self.points), seed=str(self.seed))
+        return tree
+
+    def kept_draws(self) -> Array:
+        """The draws, or a ValueError if they were not kept."""
+        if self.draws is None:
+            raise ValueError("this run kept no draws: name its functionals, or run with keep_draws=True")
+        return self.draws
+
+    def _chain_means(self, functional: str | Callable[[Any], Any]) -> Array:
+        if isinstance(functional, str):
+            if functional not in self.means:
+                raise ValueError(f"no functional {functional!r} in this run; known: {', '.join(self.means) or 'none'}")
+            return self.means[functional]
+        return np.asarray(self._values(functional).mean(axis=1))
+
+    def _values(self, functional: Callable[[Any], Any]) -> Array:
+        """Values at all draws, shape (chains, n, ...)."""
+        draws = self.kept_draws()
+        rows = draws.reshape(-1, draws.shape[2])
+        values = np.asarray(functional(rows), np.float64)
+        if values.shape[:1] != (len(rows),):
+            raise ValueError(f"the function must return an array of shape ({len(rows)}, ...), not {values.shape}")
+        if not np.isfinite(values).all():
+            row = int(np.argmin(np.isfinite(values).reshape(len(rows), -1).all(axis=1)))
+            raise ValueError(f"the function is {values[row].tolist()} at {rows[row].tolist()}")
+        return np.asarray(values.reshape(*draws.shape[:2], *values.shape[1:]))
