@@ -65,11 +65,7 @@ fn relaxed<'py>(
 
 /// The rank of each pixel of a dither mask.
 #[pyfunction]
-fn dither_ranks<'py>(
-    py: Python<'py>,
-    shape: (usize, usize),
-    seed: u64,
-) -> PyResult<Bound<'py, PyArray2<u32>>> {
+fn dither_ranks(py: Python<'_>, shape: (usize, usize), seed: u64) -> PyResult<Bound<'_, PyArray2<u32>>> {
     let (rows, columns) = shape;
     let ranks = py.detach(|| void_and_cluster::ranks(rows, columns, Seed::new(seed))).map_err(raise)?;
     PyArray1::from_vec(py, ranks).reshape([rows, columns])

@@ -154,7 +154,7 @@ fn measure_bounces<'py>(
     let settings = settings_from(settings)?;
     let mut raised = None;
     let mut go_on = |_| {
-        raised = raised.take().or(Python::attach(|py| py.check_signals()).err());
+        raised = raised.take().or(Python::attach(see_signals).err());
         raised.is_none()
     };
     let measured =
@@ -181,9 +181,14 @@ fn measure_bounces<'py>(
     Ok(result)
 }
 
+/// Let Python see signals.
+fn see_signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
+}
+
 /// Let Python see signals, and the callback the progress.
 fn tell(py: Python<'_>, report: &Progress<'_>, callback: Option<&Py<PyAny>>) -> PyResult<()> {
-    py.check_signals()?;
+    see_signals(py)?;
     let Some(callback) = callback else { return Ok(()) };
     let record = PyDict::new(py);
     record.set_item("done", report.samples)?;

@@ -1,10 +1,10 @@
 //! What each bounce contributes and costs, measured without roulette: what a choice of survival probabilities needs.
 //!
-//! A path without roulette is a sum Y = Δ₁ + Δ₂ + … over its segments: Δ_l is what the path gathers at the end of its l-th segment, the light
-//! that it ran into there and the light that was sampled from there. With independent roulette that lets a path reach segment l with
-//! probability S_l, the estimate Σ Δ_l / S_l has the second moment Σ (E T_l² − E T_{l+1}²) / S_l, where T_l = Δ_l + Δ_{l+1} + … is the tail
-//! (Rhee & Glynn 2015, "Unbiased Estimation with Square Root Convergence for SDE Models", theorem 1), and costs Σ S_l times the rays of
-//! segment l.
+//! A path without roulette is a sum `Y = D_1 + D_2 + …` over its segments: `D_l` is what the path gathers at the end of segment `l`, the
+//! light that it ran into there and the light that was sampled from there. With independent roulette that lets a path reach segment `l`
+//! with probability `S_l`, the estimate `Σ D_l / S_l` has the second moment `Σ (E T_l² - E T_(l+1)²) / S_l`, where `T_l = D_l + D_(l+1) + …` is
+//! the tail (Rhee & Glynn 2015, "Unbiased Estimation with Square Root Convergence for SDE Models", theorem 1), and costs
+//! `Σ S_l` times the rays of segment `l`.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
