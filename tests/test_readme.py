@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules
+from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules, smc
 from evenlight.multilevel import models
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -76,6 +76,16 @@ def test_the_example_of_chains_runs(capsys: pytest.CaptureFixture[str]) -> None:
     assert f"# {' '.join(capsys.readouterr().out.split())}\n" in example
 
 
+def test_the_example_of_particles_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = (block for block in blocks("python") if "smc" in block)
+    names: dict[str, Any] = {}
+    exec(example, names)
+    evidence, exact = capsys.readouterr().out.splitlines()
+    assert f"# {evidence}" in example
+    assert abs(names["evidence"].value - float(exact)) < 5 * names["evidence"].standard_error
+    assert abs(names["waiting"].value - 3.138196) < 5 * names["waiting"].standard_error
+
+
 def commands() -> list[str]:
     """Lines of the shell blocks that call the program."""
     return [line for block in blocks("sh") for line in block.splitlines() if line.startswith("evenlight ")]
@@ -111,6 +121,10 @@ FAMILIES = {
     "formats": list(models.FORMATS),
     "kernels": list(mcmc.KERNELS),
     "driving": list(mcmc.DRIVING),
+    "dynamics": list(smc.MODELS),
+    "chains": list(smc.CHAINS),
+    "resampling": list(smc.RESAMPLING),
+    "sorts": list(smc.SORTS),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),

@@ -19,11 +19,13 @@ from evenlight import (
     points,
     quality,
     reduction,
+    smc,
     warp,
 )
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
+from evenlight.quantiles import quantile
 from evenlight.render import Film, Scene, load_scene, render
 
 __all__ = [
@@ -42,7 +44,9 @@ __all__ = [
     "multilevel",
     "points",
     "quality",
+    "quantile",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]

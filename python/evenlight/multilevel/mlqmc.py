@@ -12,7 +12,7 @@ from evenlight.arguments import SeedLike, integer, seed_number
 from evenlight.estimate import Estimate
 from evenlight.multilevel.decay import Rates, given_rate, measure_rates, remaining_bias
 from evenlight.multilevel.goal import Goal
-from evenlight.multilevel.level import LevelRow
+from evenlight.multilevel.level import LevelRow, compared
 from evenlight.multilevel.level_table import sum_of_levels, warn
 from evenlight.multilevel.replicated_level import ReplicatedLevel
 from evenlight.points import Engine, Sobol
@@ -151,7 +151,7 @@ class _Run:
     def estimate(self, obstacle: str) -> Estimate:
         rates = self._rates()
         return sum_of_levels(
-            self._rows(),
+            compared(self._rows()),
             rates,
             self._bias(),
             replicates=self._replicates,
@@ -164,8 +164,7 @@ class _Run:
         )
 
     def _rows(self) -> list[LevelRow]:
-        below = [None, *self._levels[:-1]]
-        return [level.row(coarser) for level, coarser in zip(self._levels, below, strict=True)]
+        return [level.row for level in self._levels]
 
     def _cost(self) -> float:
         return sum(level.cost for level in self._levels)
@@ -175,7 +174,7 @@ class _Run:
 
     def _bias(self) -> Any:
         if self._goal.exact and len(self._levels) == self._goal.max_level + 1:
-            return np.zeros_like(self._levels[0].mean)
+            return np.zeros_like(self._levels[0].row.mean)
         return remaining_bias(self._rows(), self._alpha)
 
     def _double(self, budget: Any) -> bool:

@@ -167,7 +167,7 @@ class _Run:
 
     def _look(self) -> None:
         """Judge all pairs anew: their rates, and the bias, the sum of the means of all pairs that are not sampled."""
-        self._rows = {pair: level.row(None) for pair, level in self._levels.items()}
+        self._rows = {pair: level.row for pair, level in self._levels.items()}
         self._means, self._expected, self._rates = fit_planes(list(self._rows.values()))
         sizes = [max(pair[k] for pair in self._levels) + _BEYOND for k in (0, 1)]
         if self._goal.exact:
