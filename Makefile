@@ -91,6 +91,10 @@ bench-quality: setup ## Measure discrepancies against SciPy, and the time that e
 bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, and the optimizer of mixture weights
 	$(BIN)/python -m benches.estimators
 
+.PHONY: bench-chains
+bench-chains: setup $(PEERS) ## Measure chains against nutpie and BlackJAX, and what evenly spread numbers gain
+	$(BIN)/python -m benches.chains
+
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
