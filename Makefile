@@ -84,16 +84,22 @@ bench-points: setup $(PEERS) ## Measure the speed of points against SciPy, QMCPy
 	$(BIN)/python -m benches.points
 
 .PHONY: bench-quality
-bench-quality: setup ## Measure discrepancies against SciPy, and the time that exact ones take
+bench-quality: setup $(PEERS) ## Measure discrepancies, indices and sorts against SciPy, SALib and NumPy
 	$(BIN)/python -m benches.quality
 
 .PHONY: bench-estimators
 bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, and the optimizer of mixture weights
 	$(BIN)/python -m benches.estimators
 
+<<<<<<< HEAD
 .PHONY: bench-chains
 bench-chains: setup $(PEERS) ## Measure chains against nutpie and BlackJAX, and what evenly spread numbers gain
 	$(BIN)/python -m benches.chains
+=======
+.PHONY: bench-multilevel
+bench-multilevel: setup $(PEERS) ## Measure multilevel methods on an Asian option against QMCPy
+	OMP_NUM_THREADS=1 $(BIN)/python -m benches.multilevel
+>>>>>>> main
 
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc

@@ -8,7 +8,20 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction, warp
+from evenlight import (
+    blue_noise,
+    domains,
+    importance,
+    integrands,
+    lab,
+    mcmc,
+    multilevel,
+    points,
+    quality,
+    reduction,
+    smc,
+    warp,
+)
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
@@ -19,6 +32,7 @@ __all__ = [
     "Film",
     "Scene",
     "__version__",
+    "blue_noise",
     "domains",
     "importance",
     "integrands",
@@ -31,5 +45,6 @@ __all__ = [
     "quality",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]

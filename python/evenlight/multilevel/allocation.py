@@ -24,7 +24,7 @@ def lacking(levels: Sequence[Level], variances: Array, variance: Any) -> Array:
 
     `variances` are those of one sample, shape (levels, quantities); the quantity that needs most decides.
     """
-    costs = np.array([[level.cost_per_sample] for level in levels])
+    costs = np.array([[level.row.cost] for level in levels])
     n = np.sqrt(variances / costs) * np.sqrt(variances * costs).sum(axis=0) / variance
     wanted = np.maximum(np.ceil(n.max(axis=1)), LEAST)
     have = np.array([level.n for level in levels])
@@ -34,7 +34,7 @@ def lacking(levels: Sequence[Level], variances: Array, variance: Any) -> Array:
 
 def extend(levels: Sequence[Level], more: Array, money: float) -> bool:
     """Draw more samples, or of all levels the share that the money allows; say whether all."""
-    planned = sum(count * level.cost_per_sample for count, level in zip(more, levels, strict=True))
+    planned = sum(count * level.row.cost for count, level in zip(more, levels, strict=True))
     share = float(min(1.0, max(0.0, money) / planned))
     for count, level in zip(more, levels, strict=True):
         level.extend(level.n + int(share * count))

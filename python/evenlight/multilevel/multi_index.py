@@ -67,11 +67,13 @@ def multi_index(
     NotConvergedWarning
         If a limit came before the tolerance.
 
-    Notes ----- The set of pairs grows one by one: of those whose predecessors are all there, the one whose mean is
-    largest for the root of variance times cost. Means and variances of pairs not sampled are extrapolated in both
-    directions; the sum of such means is the bias. Samples are distributed as in `mlmc`.
+    Notes
+    -----
+    The set of pairs grows one by one: of those whose predecessors are all there, the one whose mean is largest for the
+    root of variance times cost. Means and variances of pairs that are not sampled follow from a plane through the
+    logarithms of those that are; the sum of such means is the bias. Samples are distributed as in `mlmc`.
 
-    Where mixed differences have product rates, the cost is that of the worse of both directions, up to logarithms.
+    Where mixed differences fall as products, the cost is that of the worse of both directions, up to logarithms.
 
     Reference: A.-L. Haji-Ali, F. Nobile and R. Tempone, "Multi-index Monte Carlo: when sparsity meets sampling",
     Numer. Math. 132, 767-806 (2016).
@@ -165,7 +167,7 @@ class _Run:
 
     def _look(self) -> None:
         """Judge all pairs anew: their rates, and the bias, the sum of the means of all pairs that are not sampled."""
-        self._rows = {pair: level.row(None) for pair, level in self._levels.items()}
+        self._rows = {pair: level.row for pair, level in self._levels.items()}
         self._means, self._expected, self._rates = fit_planes(list(self._rows.values()))
         sizes = [max(pair[k] for pair in self._levels) + _BEYOND for k in (0, 1)]
         if self._goal.exact:

@@ -38,10 +38,9 @@ class Plane(NamedTuple):
 def fit_planes(rows: Sequence[LevelRow]) -> tuple[Plane, Plane, tuple[Rates, Rates]]:
     """Of absolute means and of variances, and the slowest rates of both directions."""
     costs = fit_plane(rows, np.array([[row.cost] for row in rows]), np.zeros((len(rows), 1)), -math.inf)
-    means, variances = (
-        fit_plane(rows, np.abs([np.atleast_1d(getattr(row, name)) for row in rows]), relative_errors(rows, name), LEAST)
-        for name in ("mean", "variance")
-    )
+    sizes = [np.abs([np.atleast_1d(getattr(row, name)) for row in rows]) for name in ("mean", "variance")]
+    errors = [relative_errors(rows, name) for name in ("mean", "variance")]
+    means, variances = (fit_plane(rows, *part, LEAST) for part in zip(sizes, errors, strict=True))
     both = zip(means.rates.min(axis=1), variances.rates.min(axis=1), -costs.rates[:, 0], strict=True)
     first, second = (Rates(*map(float, rates)) for rates in both)
     return means, variances, (first, second)

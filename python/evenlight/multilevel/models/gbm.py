@@ -20,7 +20,8 @@ __all__ = ["GeometricBrownianMotion"]
 
 Array = NDArray[np.float64]
 
-_BLOCK = 2**15  # numbers that are worked on at once: with a few arrays of this size, what a second-level cache holds
+_BLOCK = 2**14  # numbers that are worked on at once: a few arrays of this size fit a second-level cache
+_ROWS = 512  # but no fewer paths than this: a step of a block has its overhead
 
 
 def _euler(increments: Array, step: float, option: Option) -> Array:
@@ -159,7 +160,7 @@ class GeometricBrownianMotion(LevelSampler):
         if np.ndim(u) != 2 or np.shape(u)[1] != self.dims(level):
             raise ValueError(f"u must have shape (n, {self.dims(level)}) on level {level}, not {np.shape(u)}")
         values = np.empty((level - lowest + 1, len(u)))
-        rows = max(_BLOCK // steps, 64)
+        rows = max(_BLOCK // steps, _ROWS)
         for start in range(0, len(u), rows):
             self._block(np.asarray(u[start : start + rows], np.float64), values[:, start : start + rows])
         return values
