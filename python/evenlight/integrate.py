@@ -85,7 +85,8 @@ def integrate(
     Returns
     -------
     Estimate
-        The integral. `converged` is False where `max_n` came before the tolerance.
+        The integral. `converged` is False where `max_n` came before the tolerance. Of a run up to a tolerance,
+        ``diagnostics["looks"]`` has function values, value and standard error at every look.
 
     Raises
     ------
@@ -215,9 +216,12 @@ def _until(rule: Rule, points: Any, goal: _Goal, done: int, bar: _Bar) -> Estima
     if most < 2:
         raise ValueError(f"max_n = {goal.most} is not enough for {rule.copies} replicates")
     rows = min(max(rule.first, done), most)
+    looks: list[tuple[int, Any, Any]] = []
     while True:
         rule.extend(rows)
-        estimate = replace(rule.estimate(), sequential=True)
+        estimate = rule.estimate()
+        looks.append((estimate.n, estimate.value, estimate.standard_error))
+        estimate = replace(estimate, sequential=True, diagnostics=estimate.diagnostics | {"looks": looks})
         bar.show(estimate)
         if goal.reached(estimate) and (rows >= _CONFIRMATIONS * rule.first or np.all(estimate.standard_error)):
             return replace(estimate, message="tolerance reached")
