@@ -97,7 +97,7 @@ mod tests {
     use std::sync::atomic::Ordering;
 
     use super::*;
-    use crate::digital_net::kernels::{Added, Owen, OwenExact, Shifted};
+    use crate::digital_net::kernels::{Added, Owen, Shifted};
     use crate::instruction_sets::WIDEST;
     use crate::modular::kernels::{Folded, Summed};
     use crate::seed::mix;
@@ -127,7 +127,6 @@ mod tests {
     fn all_agree<T: Unit + PartialEq + Debug>(shape: [usize; 3]) {
         kernels_agree::<Shifted<T>>(shape);
         kernels_agree::<Owen<T>>(shape);
-        kernels_agree::<OwenExact<T>>(shape);
         kernels_agree::<Added<T>>(shape);
         kernels_agree::<Summed<T>>(shape);
         kernels_agree::<Folded<T>>(shape);

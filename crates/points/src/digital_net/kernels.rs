@@ -7,16 +7,13 @@ use crate::convert::{Digits, Unit};
 use crate::instruction_sets::for_this_machine;
 use crate::scramble::owen_exact::exact_scrambles;
 use crate::streaming::{LANES, Lanes};
-use crate::tiles::{Combine, Group};
+use crate::tiles::{Combine, Group, Period};
 
 /// Points without a scramble, or with one that is in the matrices and the offsets.
 pub(crate) struct Shifted<T>(PhantomData<T>);
 
 /// Owen-scrambled points. Tile and offsets are reversed words.
 pub(crate) struct Owen<T>(PhantomData<T>);
-
-/// Points scrambled node by node.
-pub(crate) struct OwenExact<T>(PhantomData<T>);
 
 /// Points shifted modulo 1.
 pub(crate) struct Added<T>(PhantomData<T>);
@@ -48,17 +45,6 @@ impl<T: Unit> Combine for Owen<T> {
     }
 }
 
-impl<T: Unit> Combine for OwenExact<T> {
-    type Number = T;
-    type Word = u64;
-    #[inline(always)]
-    fn numbers(group: Group<'_, u64>) -> Lanes<T> {
-        let mut words = sums(group);
-        exact_scrambles(&mut words, group[2]);
-        words.map(T::from_word)
-    }
-}
-
 impl<T: Unit> Combine for Added<T> {
     type Number = T;
     type Word = u64;
@@ -73,6 +59,29 @@ impl<T: Unit> Combine for Added<T> {
 #[inline(always)]
 fn sums<D: Digits>([words, offsets, ..]: Group<'_, D>) -> Lanes<D> {
     std::array::from_fn(|i| words[i] ^ offsets[i])
+}
+
+for_this_machine! {
+    /// Points scrambled node by node. It is hundreds of instructions for a word, which loops over more words than
+    /// [`Combine`] has serve best.
+    owen_exact = owen_exact_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T])
+}
+
+/// Words that are scrambled node by node at a time.
+const WORDS: usize = 32;
+
+#[inline(always)]
+fn owen_exact_body<T: Unit>(tile: &[u64], period: Period<'_, u64>, out: &mut [T]) {
+    let mut row = period.offsets.iter().zip(period.keys[0]).take(period.words).cycle();
+    for (tile, out) in tile.chunks(WORDS).zip(out.chunks_mut(WORDS)) {
+        let (mut words, mut word_keys) = ([0; WORDS], [0; WORDS]);
+        let places = words.iter_mut().zip(&mut word_keys).zip(tile).take(out.len());
+        for (((word, word_key), tile), (offset, key)) in places.zip(&mut row) {
+            (*word, *word_key) = (tile ^ offset, *key);
+        }
+        exact_scrambles(&mut words, &word_keys);
+        out.iter_mut().zip(words).for_each(|(x, word)| *x = T::from_word(word));
+    }
 }
 
 for_this_machine! {

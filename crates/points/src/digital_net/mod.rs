@@ -13,7 +13,7 @@ mod tables;
 use std::ops::Range;
 use std::sync::Arc;
 
-use self::kernels::{Added, Owen, OwenExact, Shifted};
+use self::kernels::{Added, Owen, Shifted};
 use self::tables::Tables;
 use crate::convert::{Digits, Unit, unit_f64};
 use crate::point_set::check_length;
@@ -130,7 +130,7 @@ impl DigitalNet {
         }
         match self.randomization {
             Randomization::Owen => self.fill_with::<Owen<T>>(rows, out),
-            Randomization::OwenExact => self.fill_with::<OwenExact<T>>(rows, out),
+            Randomization::OwenExact => self.fill_node_by_node(rows, out),
             Randomization::Shift => self.fill_with::<Added<T>>(rows, out),
             _ => self.fill_with::<Shifted<T>>(rows, out),
         }
@@ -142,30 +142,39 @@ impl DigitalNet {
         tables.for_each_block(rows, |tile, period| write::<C>(tile, period, &mut out));
     }
 
+    fn fill_node_by_node<T: Unit>(&self, rows: Range<u64>, out: &mut [T]) {
+        let mut rest = out;
+        Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
+            let words = (tile.len() - LANES).min(rest.len());
+            let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
+            kernels::owen_exact(tile, period, part);
+            rest = later;
+        });
+    }
+
     /// Gives the first 32 digits of all coordinates of some rows after the other to `take`.
-    fn for_each_leading_words(&self, rows: Range<u64>, take: impl FnMut(&[u32])) {
+    fn for_each_leading_words(&self, rows: Range<u64>, mut take: impl FnMut(&[u32])) {
         if rows.is_empty() {
             return;
         }
-        if self.randomization == Randomization::OwenExact {
-            self.for_each_leading_words_of::<OwenExact<u32>>(rows, take);
-        } else {
-            self.for_each_leading_words_of::<Owen<u32>>(rows, take);
-        }
-    }
-
-    fn for_each_leading_words_of<C: Combine<Word: Digits, Number = u32>>(
-        &self,
-        rows: Range<u64>,
-        mut take: impl FnMut(&[u32]),
-    ) {
         let (mut words_left, mut made) = ((rows.end - rows.start) as usize * self.dims, vec![]);
-        Tables::<C::Word>::new(self, &rows).for_each_block(rows, |tile, period| {
-            made.resize((tile.len() - LANES).min(words_left), 0);
+        let mut places = |tile: usize, made: &mut Vec<u32>| {
+            made.resize((tile - LANES).min(words_left), 0);
             words_left -= made.len();
-            write::<C>(tile, period, &mut Stream::new(&mut made));
-            take(&made);
-        });
+        };
+        if self.randomization == Randomization::OwenExact {
+            Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
+                places(tile.len(), &mut made);
+                kernels::owen_exact(tile, period, &mut made);
+                take(&made);
+            });
+        } else {
+            Tables::<u32>::new(self, &rows).for_each_block(rows, |tile, period| {
+                places(tile.len(), &mut made);
+                write::<Owen<u32>>(tile, period, &mut Stream::new(&mut made));
+                take(&made);
+            });
+        }
     }
 }
 
