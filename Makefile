@@ -84,12 +84,16 @@ bench-points: setup $(PEERS) ## Measure the speed of points against SciPy, QMCPy
 	$(BIN)/python -m benches.points
 
 .PHONY: bench-quality
-bench-quality: setup ## Measure discrepancies against SciPy, and the time that exact ones take
+bench-quality: setup $(PEERS) ## Measure discrepancies, indices and sorts against SciPy, SALib and NumPy
 	$(BIN)/python -m benches.quality
 
 .PHONY: bench-estimators
-bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, and the optimizer of mixture weights
-	$(BIN)/python -m benches.estimators
+bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, pypmc and vegas
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.estimators
+
+.PHONY: bench-multilevel
+bench-multilevel: setup $(PEERS) ## Measure multilevel methods against QMCPy, and how their costs grow
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.multilevel
 
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc

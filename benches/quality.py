@@ -1,4 +1,4 @@
-"""Measures of quality against SciPy, and how long exact star discrepancies take: `make bench-quality`."""
+"""Measures of quality against SciPy and SALib, and how long exact star discrepancies take: `make bench-quality`."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.stats import qmc
 
+from benches import quality_peers
 from benches.machine import describe
 from evenlight import points, quality
 
@@ -95,7 +96,8 @@ def to_markdown(record: Record) -> str:
         "Written by `make bench-quality`; figures of one run on one machine. Ratios are what counts.",
     ]
     lines += ["", "; ".join(f"{key}: {value}" for key, value in record["machine"].items()), ""]
-    return "\n".join([*lines, *_l2(record), "", *_stars(record)]) + "\n"
+    peers = quality_peers.to_markdown(record["indices"], record["sorts"])
+    return "\n".join([*lines, *_l2(record), "", *_stars(record), "", *peers]) + "\n"
 
 
 def _l2(record: Record) -> Iterator[str]:
@@ -143,12 +145,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, keep the record, write the tables."""
     parser = argparse.ArgumentParser(prog="python -m benches.quality", description=__doc__)
     parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--particles", help="a Python that has the package particles, to sort clouds with")
     parser.add_argument("--report", type=Path, default=HERE / "QUALITY.md")
     options = parser.parse_args(arguments)
     record: Record = {"machine": describe(), "rounds": options.rounds}
     record["l2"] = [measure_l2(d, n, options.rounds) for d, n in SHAPES]
     print("L2 family", file=sys.stderr)
     record["stars"] = [measure_star(*case) for case in STARS]
+    record["indices"] = quality_peers.measure_indices(1 << 14)
+    record["sorts"] = quality_peers.measure_sorts(options.rounds, options.particles)
     raw = HERE.parent / "out" / "bench-quality.json"
     raw.parent.mkdir(exist_ok=True)
     raw.write_text(json.dumps(record, indent=1))

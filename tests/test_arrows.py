@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, points
+from evenlight import _core, blue_noise, points
 
 # What each crate of ours may use of the others.
 ARROWS: dict[str, set[str]] = {
@@ -27,6 +27,7 @@ PYTHON_ONLY = {"pyo3", "numpy"}
 FAMILIES: dict[str, list[str]] = {
     "points/src/sequences": [info.name for info in points.available()],
     "points/src/scramble": _core.scrambles(),
+    "points/src/blue_noise": [info.name for info in blue_noise.available()],
     "points/src/warp": _core.warps(),
     "render/src/bsdf": _core.bsdfs(),
     "render/src/emitter": _core.emitters(),

@@ -19,6 +19,11 @@ def test_the_report_is_a_pure_function_of_the_record() -> None:
         "rounds": 3,
         "l2": [{"d": 5, "n": 4096, "times": dict.fromkeys(METHODS, times)}],
         "stars": [star | bounds, {**star, "d": 1, "method": "sweep"}],
+        "indices": {"evaluations": 80, "apart": 1.234, "error": 0.001, "SALib_error": 0.02},
+        "sorts": [
+            {"d": 2, "n": 4096, "evenlight": 2e-4, "argsort": 1e-4, "particles": 5e-3},
+            {"d": 3, "n": 10, "evenlight": 1e-6, "argsort": 1e-6, "particles": None},
+        ],
     }
     text = to_markdown(record)
     assert text == to_markdown(record)
@@ -26,6 +31,9 @@ def test_the_report_is_a_pure_function_of_the_record() -> None:
     assert "| sobol | 3 | 8 | 0.250000 | dem | 0.5 | 1.0e+06 | 0.200000 (1) | 0.300000 (2) |" in text
     assert "| sobol | 1 | 8 | 0.250000 | sweep |" in text
     assert "1e-12" in text
+    assert "at most 1.2 combined standard errors apart" in text
+    assert "| 2 | 4096 | 200 | 100 | 5e+03 | 25 |" in text
+    assert "| 3 | 10 | 1 | 1 | – | – |" in text
 
 
 def test_a_measured_star_discrepancy_has_its_bounds() -> None:

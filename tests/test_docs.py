@@ -7,7 +7,20 @@ import inspect
 import pytest
 
 import evenlight
-from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction
+from evenlight import (
+    blue_noise,
+    domains,
+    importance,
+    integrands,
+    lab,
+    mcmc,
+    multilevel,
+    points,
+    quality,
+    reduction,
+    smc,
+)
+from evenlight.multilevel import models
 
 
 def public_names() -> list[tuple[str, object]]:
@@ -15,6 +28,7 @@ def public_names() -> list[tuple[str, object]]:
     modules = {
         "evenlight": evenlight,
         "evenlight.points": points,
+        "evenlight.blue_noise": blue_noise,
         "evenlight.domains": domains,
         "evenlight.reduction": reduction,
         "evenlight.integrands": integrands,
@@ -23,6 +37,8 @@ def public_names() -> list[tuple[str, object]]:
         "evenlight.lab": lab,
         "evenlight.mcmc": mcmc,
         "evenlight.multilevel": multilevel,
+        "evenlight.smc": smc,
+        "evenlight.multilevel.models": models,
     }
     return [
         (f"{prefix}.{name}", thing)

@@ -305,3 +305,79 @@ def test_what_it_takes_to_gain_a_millionfold() -> None:
     uniform = variance_constants(problem, UNIFORM, n=2**14).independent
     assert plain / uniform == pytest.approx(3e6, rel=0.1)
     assert uniform / variance_constants(problem, best.alpha, n=2**14).independent == pytest.approx(5, rel=0.15)
+
+
+def entry(f: Any, row: int, column: int) -> Any:
+    return lambda x: f(x)[:, row, column]
+
+
+def test_arrays_of_values_are_estimated_entry_by_entry() -> None:
+    """With given weights every entry is what it is alone, up to rounding; learned weights serve all of them."""
+    target, proposals = TOY
+    both = lambda x: np.stack([beyond_three(x), 5 * (x[:, 0] < -3), x[:, 0] ** 2, x[:, 0]], 1).reshape(-1, 2, 2)  # noqa: E731
+    truth = np.array([[TAIL, 5 * TAIL], [1.0, 0.0]])
+    methods: dict[str, Any] = {
+        "mixture": lambda f: mixture_estimate(f, target, proposals, alpha="uniform", n=3000),
+        "points": lambda f: mixture_estimate(f, target, proposals, alpha="uniform", n=2048, points=Sobol(2, seed=1)),
+        "plain": lambda f: importance.importance_sampling(f, target, StudentT([0.0]), n=3000),
+        "normalized": lambda f: importance.importance_sampling(
+            f, target, StudentT([0.0]), n=3000, self_normalized=True
+        ),
+        "multiple": lambda f: importance.multiple_importance(f, target, proposals, counts=[1000, 1000, 1000]),
+    }
+    for name, method in methods.items():
+        estimate = method(both)
+        assert estimate.value.shape == estimate.standard_error.shape == (2, 2), name
+        assert (np.abs(estimate.value - truth) <= 5 * estimate.standard_error).all(), name
+        for row, column in np.ndindex(2, 2):
+            alone = method(entry(both, row, column))
+            assert estimate.value[row, column] == pytest.approx(alone.value, rel=1e-9, abs=1e-12), name
+            assert estimate.standard_error[row, column] == pytest.approx(alone.standard_error, rel=1e-9), name
+
+
+def test_weights_for_several_values_serve_all() -> None:
+    """Two tails of very different size: weights for one of them alone would starve the other."""
+    target, proposals = TOY
+    tails = lambda x: np.stack([x[:, 0] > 3, 1e6 * (x[:, 0] < -3)], axis=1)  # noqa: E731
+    estimate = mixture_estimate(tails, target, proposals, n=20_000, pilot=5000)
+    alpha = estimate.diagnostics["alpha"]
+    assert alpha[1] == pytest.approx(alpha[2], abs=0.05)
+    assert alpha[1] > 0.4
+    assert estimate.diagnostics["beta"].shape == (3, 2)
+    relative = estimate.standard_error / estimate.value
+    assert relative.max() < 0.02
+    assert (np.abs(estimate.value / np.array([TAIL, 1e6 * TAIL]) - 1) < 5 * relative).all()
+
+
+def test_the_objective_of_several_values_is_the_sum_of_theirs() -> None:
+    """Against sums over all atoms: no other weights, of 2,000 at random, are better by more than the gap."""
+    generator = np.random.default_rng(5)
+    f, p, q, _ = discrete_problem(3)
+    fp = np.stack([f * p, generator.exponential(size=60) ** 2 * p], axis=1)
+    density = np.full(60, 1 / 60)
+
+    def objective(alpha: np.ndarray) -> float:
+        sizes = np.abs(fp).sum(axis=0)
+        return float(((fp / sizes) ** 2 / (q @ alpha)[:, np.newaxis]).sum())
+
+    best = importance.optimal_mixture(fp, q, density, floor=0.05, gap=1e-6)
+    others = 0.05 + 0.8 * generator.dirichlet(np.ones(4), size=2000)
+    assert objective(best.alpha) <= min(objective(alpha) for alpha in others) * (1 + 2e-6)
+    assert best.variance.shape == (2,)
+    assert best.beta is not None
+    for column in range(2):
+        alone = fit(fp[:, column], q, 1 / (density * (q @ best.alpha)))
+        np.testing.assert_allclose(best.beta[:, column], alone.beta, rtol=1e-9)
+    with pytest.raises(ValueError, match="takes one integrand, not 2"):
+        importance.optimal_mixture(fp, q, density, control_variates="joint")
+
+
+def test_components_are_learned_for_several_values() -> None:
+    problem = singularity()
+    f = lambda x: np.stack([problem.f(x), 1e3 * problem.f(-x)], axis=1)  # noqa: E731  # the target is even
+    estimate = importance.adaptive_estimate(f, problem.target, problem.proposals, n=40_000, seed=2)
+    assert estimate.value.shape == (2,)
+    error = np.abs(estimate.value / [problem.exact, 1e3 * problem.exact] - 1)
+    relative = estimate.standard_error / estimate.value
+    assert (error < 5 * relative).all()
+    assert relative.max() < 2e-3

@@ -12,6 +12,7 @@ import pytest
 
 import evenlight
 from conftest import Run
+from evenlight import quality
 from evenlight.estimate import NotConvergedWarning
 from evenlight.points import Halton, Independent, LatinHypercube, Sobol
 from evenlight.rules import RULES
@@ -227,3 +228,120 @@ def test_the_command_line_integrates(evenlight_command: Run) -> None:
     wrong = evenlight_command("integrate", "keister", "--n", "100")
     assert wrong.returncode == 2
     assert "no multiple of 16 replicates" in wrong.stderr
+
+
+@pytest.mark.parametrize(
+    ("d", "n", "kind"), [(1, 100, "exact"), (2, 1000, "exact"), (3, 256, "exact"), (8, 1024, "upper")]
+)
+def test_koksma_and_hlawka_bound_errors(d: int, n: int, kind: str) -> None:
+    """x_1 ... x_d: over every face the variation in the sense of Vitali is 1, so that V = 2^d - 1."""
+    variation = quality.hardy_krause_variation(product, d, size=1)
+    assert variation.value == pytest.approx(2**d - 1)
+    estimate = evenlight.integrate(product, Sobol(d, scramble="none"), n=n, variation=variation)
+    star = estimate.diagnostics["star_discrepancy"]
+    assert star.kind == kind
+    assert estimate.diagnostics["bound"] == pytest.approx((2**d - 1) * float(star))
+    low, high = estimate.confidence_interval()
+    assert low <= 0.5**d <= high
+    assert json.dumps(estimate.to_dict())
+
+
+def test_bounds_are_for_fixed_points_and_finite_values() -> None:
+    fixed = Sobol(2, scramble="none")
+    with pytest.raises(ValueError, match="a bound goes with method 'qmc'"):
+        evenlight.integrate(product, Sobol(2), n=64, variation=3.0)
+    with pytest.raises(ValueError, match="give one of them"):
+        evenlight.integrate(product, fixed, n=64, variation=3.0, bound=0.1)
+    gap = lambda x: np.where(x[:, 0] > 0.9, np.nan, 1.0)  # noqa: E731
+    with pytest.raises(ValueError, match="no finite variation"):
+        evenlight.integrate(gap, fixed, n=64, variation=3.0, on_nonfinite="skip-and-count")
+
+
+@pytest.mark.parametrize(
+    ("method", "source"),
+    [
+        ("mc", Independent(3, seed=1)),
+        ("rqmc", Halton(3, seed=1)),
+        ("median", Sobol(3, seed=1, scramble="linear")),
+        ("qmc", Sobol(3, scramble="none")),
+    ],
+)
+def test_runs_resume_without_computing_values_again(method: str, source: Any) -> None:
+    seen = []
+
+    def f(x: np.ndarray) -> np.ndarray:
+        seen.append(len(x))
+        return np.stack([product(x), np.exp(x[:, 0])], axis=1)
+
+    first = evenlight.integrate(f, source, n=1024, method=method)
+    more = evenlight.integrate(f, source, n=4096, method=method, resume=first)
+    assert sum(seen) == 4096
+    whole = evenlight.integrate(f, source, n=4096, method=method)
+    np.testing.assert_allclose(more.value, whole.value, rtol=1e-13)
+    np.testing.assert_allclose(more.standard_error, whole.standard_error, rtol=1e-6)
+    assert (more.n, more.cost, more.sequential) == (4096, 4096, True)
+    if method != "qmc":
+        assert (more.half_width(0.95) > whole.half_width(0.95)).all()
+
+
+def test_a_run_resumes_up_to_a_smaller_tolerance() -> None:
+    source = Sobol(3, seed=1)
+    coarse = evenlight.integrate(product, source, atol=1e-3)
+    fine = evenlight.integrate(product, source, atol=1e-5, resume=coarse)
+    whole = evenlight.integrate(product, source, atol=1e-5)
+    assert (fine.n, fine.value) == (whole.n, pytest.approx(whole.value, rel=1e-13))
+    assert fine.n > coarse.n
+
+
+def test_what_does_not_fit_does_not_resume() -> None:
+    source = Sobol(3, seed=1)
+    first = evenlight.integrate(product, source, n=1024)
+    for source_, settings, message in (
+        (Sobol(3, seed=2), {"n": 2048}, "must be an estimate by 'rqmc' from Sobol"),
+        (source, {"n": 2048, "method": "median"}, "must be an estimate by 'median'"),
+        (source, {"n": 2048, "replicates": 8}, "has 16 replicates, not 8"),
+        (source, {"n": 512}, "has 1024 function values already, more than 512"),
+        (LatinHypercube(3, seed=1), {"n": 2048}, "cannot grow"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            evenlight.integrate(product, source_, resume=first, **settings)
+
+
+def test_medians_merge_into_the_median_of_all() -> None:
+    """As if it had been one run of all replicates; with sizes that differ, each counts by its values."""
+    runs = [
+        evenlight.integrate(product, Sobol(3, seed=seed, scramble="linear"), n=1024, method="median")
+        for seed in range(3)
+    ]
+    merged = runs[0].merge(runs[1]).merge(runs[2])
+    again = runs[2].merge(runs[0].merge(runs[1]))
+    replicates = np.concatenate([run.diagnostics["replicates"] for run in runs])
+    assert merged.value == again.value == np.median(replicates)
+    assert merged.standard_error == again.standard_error
+    assert (merged.n, merged.replicates) == (3072, 48)
+    spread = 1.482602 * np.median(np.abs(replicates - np.median(replicates)))
+    assert merged.standard_error == pytest.approx(math.sqrt(math.pi / 2 / 47) * spread)
+    assert merged.degrees_of_freedom == pytest.approx(0.37 * 47)
+    larger = evenlight.integrate(product, Sobol(3, seed=9, scramble="linear"), n=4096, method="median")
+    both = runs[0].merge(larger)
+    assert both.value == pytest.approx((runs[0].value + 4 * larger.value) / 5, rel=1e-12)
+    mean = evenlight.integrate(product, Sobol(3, seed=10), n=1024)
+    assert runs[0].merge(mean).method == "median+rqmc"
+    for kind in ("unskewed", "percentile-t"):
+        with pytest.raises(ValueError, match="kind='t'"):
+            merged.confidence_interval(kind=kind)
+
+
+def test_a_design_serves_any_number_of_runs() -> None:
+    """What one run makes of it stays in that run."""
+    design = LatinHypercube(3, seed=1)
+    found = {n: evenlight.integrate(product, design, n=n).value for n in (64, 128)}
+    assert design.n is None
+    assert found[128] == evenlight.integrate(product, LatinHypercube(3, seed=1), n=128).value
+
+
+def test_a_run_up_to_a_tolerance_tells_what_it_saw() -> None:
+    estimate = evenlight.integrate(product, Sobol(3, seed=1), atol=1e-5)
+    looks = estimate.diagnostics["looks"]
+    assert [n for n, _, _ in looks] == [2048 * 2**k for k in range(len(looks))]
+    assert looks[-1] == (estimate.n, estimate.value, estimate.standard_error)

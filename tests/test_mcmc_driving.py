@@ -11,9 +11,17 @@ import pytest
 from scipy import special, stats
 
 from evenlight import mcmc, quality
-from evenlight.mcmc import DRIVING, LFSR, Gibbs, IndependentNumbers, run
+from evenlight.mcmc import DRIVING, LCG, LFSR, Antithetic, Gibbs, IndependentNumbers, Permuted, Stratified, run
+from evenlight.points import LatinHypercube, Sobol
 
-CASES: dict[str, Any] = {"independent": IndependentNumbers(), "lfsr": LFSR(10)}
+CASES: dict[str, Any] = {
+    "independent": IndependentNumbers(),
+    "lfsr": LFSR(10),
+    "lcg": LCG(10),
+    "permuted": Permuted(Sobol(3)),
+    "antithetic": Antithetic(),
+    "stratified": Stratified(4),
+}
 
 
 def test_every_sequence_has_a_case_and_every_file_is_registered() -> None:
@@ -40,8 +48,8 @@ def test_streams_do_not_depend_on_blocks_and_replicates_differ(name: str) -> Non
 def test_every_number_is_uniform(name: str) -> None:
     """Number 17, coordinate 1, of 2,000 replicates (Kolmogorov and Smirnov): a false alarm in 10,000."""
     driving = CASES[name]
-    n = driving.length(2) or 100
-    numbers = driving.stream(2, n, 2000, 3)(17, 18)[:: driving.coupled, 0, 1]
+    n = driving.length(3) or 100
+    numbers = driving.stream(3, n, 2000, 3)(17, 18)[driving.coupled - 1 :: driving.coupled, 0, 1]
     assert stats.kstest(numbers, "uniform").pvalue > 1e-4
 
 
@@ -113,3 +121,111 @@ def test_variance_reduction_on_the_bivariate_normal(table: str, least: float) ->
     )
     random = run(correlated(0.5), [0, 0], n=1024, chains=1000, functionals=first, keep_draws=False, seed=2)
     assert np.mean(random.means["x"] ** 2) / np.mean(even.means["x"] ** 2) > least
+
+
+@pytest.mark.parametrize("m", range(10, 21))
+def test_generators_have_the_full_period(m: int) -> None:
+    generator = LCG(m)
+    states = np.sort(np.rint(generator.numbers(0, generator.period) * generator.length(2)))
+    assert (states == np.arange(1, generator.period + 1)).all()
+    assert generator.numbers(generator.period + 3, generator.period + 4) == generator.numbers(3, 4)
+
+
+@pytest.mark.parametrize("m", range(21, 25))
+def test_multipliers_of_long_generators_are_primitive_roots(m: int) -> None:
+    """After no proper divisor of the period is the generator where it began."""
+    generator = LCG(m)
+    first = generator.numbers(0, 1)
+    assert generator.numbers(generator.period, generator.period + 1) == first
+    rest, prime = generator.period, 2
+    while rest > 1:
+        if rest % prime == 0:
+            part = generator.period // prime
+            assert generator.numbers(part, part + 1) != first
+            rest //= prime
+        else:
+            prime += 1
+
+
+@pytest.mark.parametrize("driving", [LFSR(10), LCG(10)])
+@pytest.mark.parametrize("dims", [1, 2, 3, 5, 11])
+def test_every_row_is_used_once(driving: Any, dims: int) -> None:
+    """First numbers of the rows, less the shift: all values, 0 included."""
+    n = driving.length(dims)
+    assert len(np.unique(driving.stream(dims, n, 1, 5)(0, n)[0, :, 0])) == n
+
+
+def test_permuted_rows_are_the_points_in_another_order() -> None:
+    rows = Permuted(Sobol(2)).stream(2, 256, 3, 9)(0, 256)
+    points = Sobol(2).replicate(9).points(0, 256, replicates=3)
+    for ours, theirs in zip(rows, points, strict=True):
+        assert sorted(map(tuple, ours)) == sorted(map(tuple, theirs))
+        assert not (ours == theirs).all()
+    assert Permuted(LatinHypercube(2, n=100)).length(2) == 100
+
+
+def test_stratified_numbers_are_latin_hypercubes() -> None:
+    numbers = Stratified(5).stream(3, 20, 4, 1)(0, 20).reshape(4, 5, 20, 3)
+    assert (np.sort((numbers * 5).astype(int), axis=1) == np.arange(5)[None, :, None, None]).all()
+
+
+def test_coupled_chains_are_one_replicate() -> None:
+    """Antithetic pairs of a linear Gibbs sampler: E x_1 without any error, E x_1^2 with one."""
+    chains = run(correlated(0.5), [0, 0], n=100, points=Antithetic(), chains=20, seed=1)
+    estimate = chains.estimate(lambda x: np.stack([x[:, 0], x[:, 0] ** 2], axis=1))
+    assert estimate.replicates == 10
+    assert abs(estimate.value[0]) < 1e-12 and estimate.standard_error[0] < 1e-12
+    assert abs(estimate.value[1] - 1) < 5 * estimate.standard_error[1] < 1
+
+
+def test_antithetic_registers_add_up() -> None:
+    """LFSR-driven pairs: what is odd cancels, what is even keeps the gain of the register."""
+    square = {"x^2": lambda x: x[:, 0] ** 2}
+    pairs = run(correlated(0.5), [0, 0], points=Antithetic(LFSR(10)), chains=400, functionals=square, seed=1)
+    alone = run(correlated(0.5), [0, 0], points=LFSR(10), chains=200, functionals=square, seed=2)
+    variances = [np.var(chains.means["x^2"].reshape(200, -1).mean(axis=1)) for chains in (pairs, alone)]
+    assert variances[0] < 1.5 * variances[1]  # two standard errors of the ratio above equality
+
+
+def test_stratified_chains_gain_where_chains_forget() -> None:
+    """Variance of the mean over 16 chains of a Gibbs sampler with rho = 0.3, against independent chains."""
+    first = {"x": lambda x: x[:, 0]}
+    variances = []
+    for points in (Stratified(16), IndependentNumbers()):
+        chains = run(correlated(0.3), [0, 0], n=64, points=points, chains=1600, functionals=first, seed=3)
+        variances.append(np.var(chains.means["x"].reshape(100, 16).mean(axis=1)))
+    assert variances[0] < 0.1 * variances[1]
+
+
+@pytest.mark.parametrize(
+    ("points", "least"),
+    [(LCG(10), 50), (Permuted(Sobol(2)), 2), (Permuted(LatinHypercube(2, n=1024)), 2)],
+)
+def test_other_sequences_reduce_the_variance_too(points: Any, least: float) -> None:
+    first = {"x": lambda x: x[:, 0]}
+    n = points.length(2) or 1024
+    even = run(correlated(0.5), [0, 0], n=n, points=points, chains=300, functionals=first, keep_draws=False, seed=1)
+    random = run(correlated(0.5), [0, 0], n=n, chains=300, functionals=first, keep_draws=False, seed=2)
+    assert np.mean(random.means["x"] ** 2) / np.mean(even.means["x"] ** 2) > least
+
+
+WRONG: Any = 3
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (lambda: LCG(25), ValueError, "m must be 10 to 24, not 25"),
+        (lambda: LFSR(10, "knuth"), ValueError, "unknown table 'knuth'; known: harase, chen"),
+        (lambda: Permuted(WRONG), TypeError, "points must be a sequence of evenlight.points"),
+        (lambda: Permuted(Sobol(2, scramble="none")), ValueError, "is not random"),
+        (lambda: Permuted(Sobol(3)).stream(2, 8, 1, 1), ValueError, "a step takes 2 uniform numbers"),
+        (lambda: Antithetic(WRONG), TypeError, "points must be a driving sequence"),
+        (lambda: Antithetic(Stratified(4)), ValueError, "couples 4 chains already"),
+        (lambda: Stratified(1), ValueError, "coupled must be at least 2"),
+        (lambda: run(correlated(0.5), [0, 0], n=9, chains=6, points=Stratified(4)), ValueError, "multiple of the 4"),
+    ],
+)
+def test_what_cannot_drive_is_refused(call: Any, error: type[Exception], words: str) -> None:
+    with pytest.raises(error, match=words):
+        call()

@@ -84,3 +84,12 @@ def test_progress_is_told_and_may_stop_the_work() -> None:
 def test_what_has_no_meaning_is_refused(call: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_what_is_certain_is_never_a_lower_bound() -> None:
+    """Exact where that takes few steps, else an upper bound."""
+    for d, limit, kind in ((2, 0, "exact"), (3, 1e10, "exact"), (3, 0, "upper")):
+        x = points.Sobol(d, seed=2).points(0, 64)
+        star = quality.star_discrepancy(x, "certain", limit=limit, brackets=16)
+        assert star.kind == kind
+        assert quality.star_discrepancy(x) <= star

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from evenlight import points, quality
+from evenlight import points, quality, warp
 
 Array = npt.NDArray[np.float64]
 
@@ -27,6 +27,25 @@ def test_the_discrepancy_of_a_triangle_does_not_depend_on_its_shape(corners: Any
     assert quality.triangle_discrepancy(x, np.asarray(corners)[order]) == pytest.approx(
         quality.triangle_discrepancy(x, corners), abs=1e-12
     )
+
+
+def parallelograms_by_definition(x: Array) -> float:
+    """The parallelogram discrepancy of barycentric points by counting for every pair of bounds."""
+    worst = 0.0
+    for first, second in [(1, 2), (2, 0), (0, 1)]:
+        a, b = np.round(x[:, first], 13), np.round(x[:, second], 13)
+        s, t = np.append(np.unique(a), 1.0), np.append(np.unique(b), 1.0)
+        area = 2 * s[:, None] * t - np.maximum(s[:, None] + t - 1, 0) ** 2
+        below = (a < s[:, None]).astype(float) @ (b < t[:, None]).T.astype(float)
+        up_to = (a <= s[:, None]).astype(float) @ (b <= t[:, None]).T.astype(float)
+        worst = max(worst, (area - below / len(x)).max(), (up_to / len(x) - area).max())
+    return worst
+
+
+@pytest.mark.parametrize("n", [1, 7, 100])
+def test_the_discrepancy_of_a_triangle_is_that_of_counting(n: int) -> None:
+    for x in (np.random.default_rng(n).dirichlet([1, 1, 1], n), warp.triangle_van_der_corput(n, np.eye(3))):
+        assert quality.triangle_discrepancy(x, np.eye(3)) == pytest.approx(parallelograms_by_definition(x), abs=1e-9)
 
 
 def test_a_grid_of_four_in_a_triangle_has_the_known_discrepancy() -> None:

@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 from conftest import ROOT
-from evenlight import _core, cli, domains, importance, integrands, mcmc, points, rules
+from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules, smc
+from evenlight.multilevel import models
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -69,6 +70,22 @@ def test_the_example_of_levels_runs(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs(names["estimate"].value - (math.e - 1)) < 3e-3
 
 
+def test_the_example_of_chains_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = (block for block in blocks("python") if "evenlight.mcmc" in block)
+    exec(example, {})
+    assert f"# {' '.join(capsys.readouterr().out.split())}\n" in example
+
+
+def test_the_example_of_particles_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = (block for block in blocks("python") if "smc" in block)
+    names: dict[str, Any] = {}
+    exec(example, names)
+    evidence, exact = capsys.readouterr().out.splitlines()
+    assert f"# {evidence}" in example
+    assert abs(names["evidence"].value - float(exact)) < 5 * names["evidence"].standard_error
+    assert abs(names["waiting"].value - 3.138196) < 5 * names["waiting"].standard_error
+
+
 def commands() -> list[str]:
     """Lines of the shell blocks that call the program."""
     return [line for block in blocks("sh") for line in block.splitlines() if line.startswith("evenlight ")]
@@ -92,13 +109,22 @@ FAMILIES = {
     "sequences": [info.name for info in points.available()],
     "scrambles": _core.scrambles(),
     "warps": _core.warps(),
+    "blue noise": [info.name for info in blue_noise.available()],
     "rules": list(rules.RULES),
     "integrands": list(integrands.INTEGRANDS),
     "domains": list(domains.DOMAINS),
     "densities": list(importance.DENSITIES),
     "heuristics": list(importance.HEURISTICS),
+    "models": list(models.MODELS),
+    "payoffs": list(models.PAYOFFS),
+    "fields": list(models.FIELDS),
+    "formats": list(models.FORMATS),
     "kernels": list(mcmc.KERNELS),
     "driving": list(mcmc.DRIVING),
+    "dynamics": list(smc.MODELS),
+    "chains": list(smc.CHAINS),
+    "resampling": list(smc.RESAMPLING),
+    "sorts": list(smc.SORTS),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),
     "BSDFs": _core.bsdfs(),
@@ -111,7 +137,7 @@ FAMILIES = {
 
 
 def test_the_table_of_families_is_that_of_the_registries() -> None:
-    rows = re.findall(r"^\| (\w+) \| (.*?) \| `(.*?)` \|$", README, flags=re.MULTILINE)
+    rows = re.findall(r"^\| (\w+(?: \w+)?) \| (.*?) \| `(.*?)` \|$", README, flags=re.MULTILINE)
     members = {family: re.findall(r"`(\w+)`", names) for family, names, _ in rows}
     assert {family: sorted(names) for family, names in members.items()} == {
         family: sorted(names) for family, names in FAMILIES.items()

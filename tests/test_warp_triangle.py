@@ -7,41 +7,30 @@ import math
 import numpy as np
 import pytest
 
-from evenlight import warp
+from evenlight import quality, warp
 
 EYE = np.eye(3)
 CORNERS = np.array([[0.0, 1.0, 2.0, 0.5], [3.0, -1.0, 2.0, 0.0], [1.0, 1.0, 0.0, 7.0]])
 
 
-def by_definition(x: np.ndarray) -> float:
-    """The parallelogram discrepancy of barycentric points by counting for every pair of bounds."""
-    worst = 0.0
-    for first, second in [(1, 2), (2, 0), (0, 1)]:
-        a, b = np.round(x[:, first], 13), np.round(x[:, second], 13)
-        s, t = np.append(np.unique(a), 1.0), np.append(np.unique(b), 1.0)
-        area = 2 * s[:, None] * t - np.maximum(s[:, None] + t - 1, 0) ** 2
-        below = (a < s[:, None]).astype(float) @ (b < t[:, None]).T.astype(float)
-        up_to = (a <= s[:, None]).astype(float) @ (b <= t[:, None]).T.astype(float)
-        worst = max(worst, (area - below / len(x)).max(), (up_to / len(x) - area).max())
-    return worst
-
-
 @pytest.mark.parametrize("k", range(1, 6))
 def test_the_discrepancy_at_powers_of_four_is_exact(k: int) -> None:
     n = 4**k
-    measured = by_definition(warp.triangle_van_der_corput(n, EYE))
+    measured = quality.triangle_discrepancy(warp.triangle_van_der_corput(n, EYE), EYE)
     assert measured == pytest.approx(2 / (3 * math.sqrt(n)) - 1 / (9 * n), abs=1e-9)
 
 
 @pytest.mark.parametrize(("n", "scaled"), [(2, 1.09994), (490, 1.12643), (1962, 1.14604)])
 def test_the_worst_counts_are_as_documented(n: int, scaled: float) -> None:
-    assert by_definition(warp.triangle_van_der_corput(n, EYE)) * math.sqrt(n) == pytest.approx(scaled, abs=1e-5)
+    assert quality.triangle_discrepancy(warp.triangle_van_der_corput(n, EYE), EYE) * math.sqrt(n) == pytest.approx(
+        scaled, abs=1e-5
+    )
 
 
 def test_the_lattice_is_as_good_as_published() -> None:
     """Basu & Owen 2015, recomputed: 0.0507, 0.0146, 0.00421 at 3 pi / 8, up to 20 % for the points on the last side."""
     for n, published in [(64, 0.0507), (256, 0.0146), (1024, 0.00421)]:
-        assert by_definition(warp.triangle_kronecker(n, EYE)) == pytest.approx(published, rel=0.2)
+        assert quality.triangle_discrepancy(warp.triangle_kronecker(n, EYE), EYE) == pytest.approx(published, rel=0.2)
 
 
 @pytest.mark.parametrize("scramble", [None, "owen", "digital_shift"])
@@ -88,7 +77,7 @@ def test_a_product_of_one_triangle_is_balanced_as_the_sequence() -> None:
     ("call", "message"),
     [
         (lambda: warp.triangle_van_der_corput(4, np.eye(2)), r"corners must have shape \(3, \*\), not \(2, 2\)"),
-        (lambda: warp.triangle_van_der_corput(-1, EYE), "n must be from 0"),
+        (lambda: warp.triangle_van_der_corput(-1, EYE), "n must be at least 0"),
         (lambda: warp.triangle_van_der_corput(2, EYE, start=2**64 - 1), r"start \+ n must be at most 2\^64"),
         (lambda: warp.triangle_van_der_corput(2, np.full((3, 2), np.inf)), "corners must be finite"),
         (lambda: warp.triangle_kronecker(4, EYE, angle=math.nan), "angle and shift must be finite"),

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from evenlight.multilevel import Coupled, Ladder, LevelSampler
+from evenlight.multilevel import Coupled, Ladder, LevelSampler, MultiIndexSampler
 
 Array = NDArray[np.float64]
 
@@ -37,6 +37,66 @@ class NormalLevels(LevelSampler):
         below = (1.0 - 2.0 ** (-self._alpha * level)) * self.exact_value
         coarse = below + z[:, 1] + self._mismatch if level else np.zeros(len(u))
         return Coupled(coarse + difference, coarse, len(u) * self.cost(level))
+
+
+class ProductLevels(MultiIndexSampler):
+    """Mixed differences with the mean 2^(-alpha (i + j)), the variance 2^(-beta (i + j)) and the cost 2^(i + j)."""
+
+    name = "product levels"
+
+    def __init__(self, alpha: float, beta: float) -> None:
+        self._alpha, self._beta = alpha, beta
+        self.exact_value = (1.0 / (1.0 - 2.0**-alpha)) ** 2
+
+    def dims(self, level: tuple[int, int]) -> int:
+        """A number for the difference and one for the coarse values."""
+        return 2
+
+    def cost(self, level: tuple[int, int]) -> float:
+        """Doubles in both directions."""
+        return float(2.0 ** sum(level))
+
+    def mean(self, i: int, j: int) -> float:
+        """Of the value at a pair of levels."""
+        mean = self.exact_value * (1.0 - 2.0 ** (-self._alpha * (i + 1))) * (1.0 - 2.0 ** (-self._alpha * (j + 1)))
+        return float(mean)
+
+    def sample(self, level: tuple[int, int], u: Array) -> Coupled:
+        """Normal numbers of known mean and variance."""
+        z = special.ndtri(np.maximum(u, 2.0**-60))
+        i, j = level
+        difference = 2.0 ** (-self._alpha * (i + j)) + 2.0 ** (-0.5 * self._beta * (i + j)) * z[:, 0]
+        below = self.mean(i - 1, j) + self.mean(i, j - 1) - self.mean(i - 1, j - 1)
+        coarse = below + z[:, 1] * (level != (0, 0))
+        return Coupled(coarse + difference, coarse, len(u) * self.cost(level))
+
+
+class BothRefined(LevelSampler):
+    """The same limit by levels that refine both directions together: l stands for the pairs with max(i, j) = l."""
+
+    name = "both refined"
+
+    def __init__(self, alpha: float, beta: float) -> None:
+        self._alpha, self._beta = alpha, beta
+        self._pairs = ProductLevels(alpha, beta)
+        self.exact_value = self._pairs.exact_value
+
+    def dims(self, level: int) -> int:
+        """A number for the difference and one for the coarse value."""
+        return 2
+
+    def cost(self, level: int) -> float:
+        """That of the finest pair."""
+        return float(4.0**level)
+
+    def sample(self, level: int, u: Array) -> Coupled:
+        """Normal numbers: the differences of all pairs of the level, which are independent, together."""
+        z = special.ndtri(np.maximum(u, 2.0**-60))
+        pairs = [(i, j) for i in range(level + 1) for j in range(level + 1) if max(i, j) == level]
+        variance = sum(2.0 ** (-self._beta * (i + j)) for i, j in pairs)
+        mean = self._pairs.mean(level, level) - (below := self._pairs.mean(level - 1, level - 1))
+        coarse = below + z[:, 1] if level else np.zeros(len(u))
+        return Coupled(coarse + mean + np.sqrt(variance) * z[:, 0], coarse, len(u) * self.cost(level))
 
 
 class ExponentialSeries(LevelSampler, Ladder):

@@ -8,10 +8,24 @@ Examples
 ((8, 8, 3), (8, 8, 3))
 """
 
-from evenlight import domains, importance, integrands, lab, mcmc, multilevel, points, quality, reduction, warp
+from evenlight import (
+    blue_noise,
+    domains,
+    importance,
+    integrands,
+    lab,
+    mcmc,
+    multilevel,
+    points,
+    quality,
+    reduction,
+    smc,
+    warp,
+)
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
+from evenlight.quantiles import quantile
 from evenlight.render import Film, Scene, load_scene, render
 
 __all__ = [
@@ -19,6 +33,7 @@ __all__ = [
     "Film",
     "Scene",
     "__version__",
+    "blue_noise",
     "domains",
     "importance",
     "integrands",
@@ -29,7 +44,9 @@ __all__ = [
     "multilevel",
     "points",
     "quality",
+    "quantile",
     "reduction",
     "render",
+    "smc",
     "warp",
 ]

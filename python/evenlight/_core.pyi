@@ -11,8 +11,10 @@ __all__ = [
     "Scene",
     "Warp",
     "__version__",
+    "available_blue_noise",
     "available_sequences",
     "available_warps",
+    "blue_noise_points",
     "bsdfs",
     "check_writable",
     "construct_korobov",
@@ -24,6 +26,7 @@ __all__ = [
     "curve_points",
     "digital_net_error",
     "dispersion",
+    "dither_ranks",
     "emitters",
     "extreme_discrepancy",
     "filters",
@@ -35,6 +38,8 @@ __all__ = [
     "lattice_error",
     "load_scene",
     "local_discrepancy",
+    "pixel_places",
+    "relaxed",
     "render",
     "replicate_seed",
     "samplers",
@@ -153,10 +158,20 @@ def curve_order(
     curve: str, x: NDArray[np.float64], lower: Sequence[float], upper: Sequence[float], workers: int
 ) -> NDArray[np.uint32]: ...
 
+# --- blue noise ---
+
+def available_blue_noise() -> list[tuple[str, str, bool, str, int]]: ...
+def blue_noise_points(
+    name: str, shape: tuple[int, int], effort: int, seed: int, workers: int
+) -> NDArray[np.float64]: ...
+def dither_ranks(shape: tuple[int, int], seed: int) -> NDArray[np.uint32]: ...
+def pixel_places(curve: str, shape: tuple[int, int], shuffle: int | None) -> NDArray[np.uint64]: ...
+def relaxed(x: NDArray[np.float64], steps: int, workers: int) -> NDArray[np.float64]: ...
+
 # --- quality ---
 
 def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], closed: bool) -> NDArray[np.float64]: ...
-def dispersion(x: NDArray[np.float64], limit: int) -> tuple[float, list[float], list[float]]: ...
+def dispersion(x: NDArray[np.float64], torus: bool, limit: int) -> tuple[float, list[float], list[float]]: ...
 def extreme_discrepancy(x: NDArray[np.float64]) -> tuple[float, list[float], list[float], bool]: ...
 def gain_coefficient(x: NDArray[np.float64], levels: Sequence[int | None], base: int) -> float: ...
 def l2_discrepancy(

@@ -8,20 +8,25 @@ from typing import SupportsIndex, TypeAlias
 
 import numpy as np
 
-__all__ = ["SeedLike", "integer", "seed_number", "threads"]
+__all__ = ["WORD", "SeedLike", "integer", "seed_number", "threads"]
+
+WORD = 2**64 - 1
+"""The largest number that the core takes."""
 
 SeedLike: TypeAlias = SupportsIndex | np.random.Generator | None
 """A number from 0 on, a generator to draw one from, or None for 0."""
 
 
-def integer(name: str, value: SupportsIndex, least: int) -> int:
-    """Return an integer of at least so much, or say which argument is none."""
+def integer(name: str, value: SupportsIndex, least: int, most: int | None = None) -> int:
+    """Return an integer within its bounds, or say which argument is none and what is allowed."""
     try:
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
-    if number < least:
-        raise ValueError(f"{name} must be at least {least}, not {number}")
+    if number < least or (most is not None and number > most):
+        low = number < least and most in (None, WORD)
+        allowed = f"at least {least}" if low else f"from {least} to {most}"
+        raise ValueError(f"{name} must be {allowed}, not {number}")
     return number
 
 

@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 
 from evenlight import bootstrap, intervals
 from evenlight.intervals import Interval
+from evenlight.medians import Medians
 from evenlight.moments import Moments
 from evenlight.stopping import sequential_quantile
 
-__all__ = ["Estimate", "NotConvergedWarning", "from_error", "from_moments"]
+__all__ = ["Estimate", "NotConvergedWarning", "from_error", "from_moments", "plain"]
 
 Array = NDArray[np.float64]
+Summary = Moments | Medians
 
 
 class NotConvergedWarning(UserWarning):
@@ -53,8 +55,8 @@ class Estimate:
         A bound on what no repetition shows, such as the error of the finest discretization; intervals are wider by it.
     sequential : bool
         Whether the run stopped when its interval was short enough; intervals are then wider, to keep their promise.
-    groups : tuple of (float, Moments)
-        Function values per replicate, and the moments of the replicates: what makes estimates merge.
+    groups : tuple of (float, Moments or Medians)
+        Function values per replicate, and what is known of the replicates: what makes estimates merge.
 
     Examples
     --------
@@ -81,7 +83,7 @@ class Estimate:
     degrees_of_freedom: float = math.nan
     bias: Any = 0.0
     sequential: bool = False
-    groups: tuple[tuple[float, Moments], ...] = field(default=(), repr=False)
+    groups: tuple[tuple[float, Summary], ...] = field(default=(), repr=False)
 
     def confidence_interval(self, level: float = 0.95, kind: str = "t") -> Interval[Any]:
         """Bounds that hold the truth in about `level` of the cases, for each entry of an array by itself.
@@ -117,7 +119,7 @@ class Estimate:
             bound = self.diagnostics["bound"]
             return Interval(self.value - bound, self.value + bound)
         low, high = _KINDS[kind](self, level)
-        return Interval(_plain(low - self.bias), _plain(high + self.bias))
+        return Interval(plain(low - self.bias), plain(high + self.bias))
 
     def half_width(self, level: float) -> Any:
         """Half the length of the interval of Student's t, widened if the run was `sequential`."""
@@ -126,8 +128,8 @@ class Estimate:
     def merge(self, other: Estimate) -> Estimate:
         """Combine with an independent estimate of the same thing; the order of merging does not matter.
 
-        Values count by their `n`. Replicates of the same size are pooled, as if they were of one run; otherwise the
-        degrees of freedom follow Welch and Satterthwaite.
+        Values count by their `n`. Replicates of the same size are pooled, as if they were of one run, so that medians
+        become the median of all; otherwise the degrees of freedom follow Welch and Satterthwaite.
 
         Parameters
         ----------
@@ -159,6 +161,7 @@ class Estimate:
             converged=self.converged and other.converged,
             message="; ".join(dict.fromkeys(filter(None, [self.message, other.message]))),
             diagnostics={"points": sources} if sources else {},
+            bias=(self.n * self.bias + other.n * other.bias) / (self.n + other.n),
             sequential=self.sequential or other.sequential,
         )
 
@@ -193,19 +196,27 @@ class Estimate:
             return sequential_quantile(level, self.degrees_of_freedom)
         return float(intervals.student_quantile(level, self.degrees_of_freedom))
 
-    def _replicate_moments(self) -> Moments:
-        if len(self.groups) != 1 or np.isnan(self.groups[0][1].third).any():
-            raise ValueError("this kind of interval needs the moments of equal replicates; kind='t' does not")
-        return self.groups[0][1]
+    def moments(self) -> Moments:
+        """The moments of equal replicates, where they are all there is.
+
+        Raises
+        ------
+        ValueError
+            If there are none, or of several sizes.
+        """
+        moments = self.groups[0][1] if len(self.groups) == 1 else None
+        if not isinstance(moments, Moments) or np.isnan(moments.third).any():
+            raise ValueError("there are no moments of equal replicates, which intervals other than kind='t' need")
+        return moments
 
 
-def from_moments(groups: tuple[tuple[float, Moments], ...], *, method: str, cost: float, **rest: Any) -> Estimate:
-    """The estimate from the moments of independent replicates.
+def from_moments(groups: tuple[tuple[float, Summary], ...], *, method: str, cost: float, **rest: Any) -> Estimate:
+    """The estimate from the moments, or the medians, of independent replicates.
 
     Parameters
     ----------
-    groups : tuple of (float, Moments)
-        Function values per replicate, and moments of the replicates' means.
+    groups : tuple of (float, Moments or Medians)
+        Function values per replicate, and what is known of the replicates' means.
     method : str
         What made them.
     cost : float
@@ -216,24 +227,22 @@ def from_moments(groups: tuple[tuple[float, Moments], ...], *, method: str, cost
     Returns
     -------
     Estimate
-        The mean, weighted with function values.
+        The mean over groups, weighted with function values.
     """
-    pooled: dict[float, Moments] = {}
-    for size, moments in groups:
-        pooled[size] = pooled[size].merge(moments) if size in pooled else moments
-    total = sum(size * moments.count for size, moments in pooled.items())
-    shares = {size: size * moments.count / total for size, moments in pooled.items()}
-    value = sum(share * pooled[size].mean for size, share in shares.items())
-    variances = [(share * pooled[size].standard_error) ** 2 for size, share in shares.items()]
+    pooled = _pooled(groups)
+    total = sum(size * moments.count for size, moments in pooled)
+    shares = [size * moments.count / total for size, moments in pooled]
+    value = sum(share * moments.mean for share, (_, moments) in zip(shares, pooled, strict=True))
+    variances = [(share * moments.standard_error) ** 2 for share, (_, moments) in zip(shares, pooled, strict=True)]
     return Estimate(
-        value=_plain(value),
-        standard_error=_plain(np.sqrt(sum(variances))),
+        value=plain(value),
+        standard_error=plain(np.sqrt(sum(variances))),
         n=round(total),
-        replicates=sum(moments.count for moments in pooled.values()),
+        replicates=sum(moments.count for _, moments in pooled),
         cost=cost,
         method=method,
-        degrees_of_freedom=_degrees(variances, [moments.count - 1 for moments in pooled.values()]),
-        groups=tuple(sorted(pooled.items(), key=lambda group: group[0])),
+        degrees_of_freedom=_degrees(variances, [moments.degrees for _, moments in pooled]),
+        groups=pooled,
         **rest,
     )
 
@@ -253,7 +262,16 @@ def from_error(estimate: Estimate, **changes: Any) -> Estimate:
     return replace(changed, groups=((changed.n / count, moments),))
 
 
-def _degrees(variances: list[Array], degrees: list[int]) -> float:
+def _pooled(groups: tuple[tuple[float, Summary], ...]) -> tuple[tuple[float, Summary], ...]:
+    """Groups of the same size and kind as one, in order of size."""
+    pooled: dict[tuple[float, str], Any] = {}
+    for size, moments in groups:
+        key = (size, type(moments).__name__)
+        pooled[key] = pooled[key].merge(moments) if key in pooled else moments
+    return tuple((size, pooled[size, kind]) for size, kind in sorted(pooled))
+
+
+def _degrees(variances: list[Array], degrees: list[float]) -> float:
     """Welch and Satterthwaite's degrees of freedom of a sum; of an array, the least."""
     if min(degrees) < 1:
         return math.nan
@@ -270,14 +288,15 @@ def _student(estimate: Estimate, level: float) -> tuple[Any, Any]:
 
 
 def _without_skewness(estimate: Estimate, level: float) -> tuple[Any, Any]:
-    moments = estimate._replicate_moments()
+    moments = estimate.moments()
     skew = moments.skewness / math.sqrt(moments.count)
     return intervals.bounds(estimate.value, estimate.standard_error, estimate._quantile(level), skew)
 
 
 def _percentile_t(estimate: Estimate, level: float) -> tuple[Any, Any]:
-    if "replicates" not in estimate.diagnostics:
-        raise ValueError("kind='percentile-t' needs the replicates, which only rules with replicates keep")
+    medians = any(isinstance(moments, Medians) for _, moments in estimate.groups)
+    if medians or "replicates" not in estimate.diagnostics:
+        raise ValueError("kind='percentile-t' needs replicates and their mean; kind='t' does not")
     low, high = bootstrap.percentile_t(np.asarray(estimate.diagnostics["replicates"]), level)
     return estimate.value - estimate.standard_error * high, estimate.value - estimate.standard_error * low
 
@@ -285,7 +304,7 @@ def _percentile_t(estimate: Estimate, level: float) -> tuple[Any, Any]:
 _KINDS = {"t": _student, "unskewed": _without_skewness, "percentile-t": _percentile_t}
 
 
-def _plain(number: Any) -> Any:
+def plain(number: Any) -> Any:
     """A float for a number, an array for an array."""
     array = np.asarray(number, np.float64)
     return float(array) if array.ndim == 0 else array

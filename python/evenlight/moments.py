@@ -61,6 +61,11 @@ class Moments:
         return np.asarray(np.sqrt(self.second / (self.count - 1) / self.count))
 
     @property
+    def degrees(self) -> float:
+        """Of freedom of the standard error."""
+        return self.count - 1.0
+
+    @property
     def skewness(self) -> Array:
         """Of the values; 0 where nothing varies."""
         return intervals.skewness(self.second / self.count, self.third / self.count)

@@ -38,6 +38,11 @@ class ReplicateMeans:
         self.used = np.zeros(replicates, np.int64)
         self.means: NDArray[np.float64] = np.zeros(replicates)
 
+    def resume(self, rows: int, means: NDArray[np.float64]) -> None:
+        """Begin with means of that many rows, all of which counted."""
+        self.rows, self.means = rows, np.asarray(means, np.float64)
+        self.used[:] = rows
+
     def extend(self, rows: int) -> None:
         """Evaluate all rows up to `rows` of every replicate."""
         engine = _sized(self.points, rows)

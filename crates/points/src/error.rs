@@ -51,6 +51,8 @@ pub enum Error {
     },
     /// Points or a setting that a measure of quality cannot use; the message says what is wrong and what is allowed.
     Quality(String),
+    /// Blue noise that cannot be made; the message says what is wrong and what is allowed.
+    BlueNoise(String),
 }
 
 impl fmt::Display for Error {
@@ -84,7 +86,7 @@ impl fmt::Display for Error {
             Self::Dimensions { sequence, asked, most } => {
                 write!(f, "sequence '{sequence}' has 1 to {most} dimensions, not {asked}")
             }
-            Self::Quality(message) => f.write_str(message),
+            Self::Quality(message) | Self::BlueNoise(message) => f.write_str(message),
         }
     }
 }

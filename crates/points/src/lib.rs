@@ -18,6 +18,7 @@
 //! * [`modular`]: the engine that all lattices share;
 //! * [`construction`] and [`quality`]: generating vectors of lattices, and how good they are;
 //! * [`warp`]: points of triangles, curves, directions and distributions, each with density and inverse;
+//! * [`blue_noise`]: points that keep their distance, dither masks, orders of pixels;
 //! * [`convert`]: digits to floating point without ever reaching 1.0;
 //! * [`stateless`]: one word from (index, dimension, seed), for renderers, and the [`owen_hash`] behind it.
 //!
@@ -26,6 +27,8 @@
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(feature = "std")]
+pub mod blue_noise;
 #[cfg(feature = "std")]
 mod cells;
 #[cfg(feature = "std")]

@@ -2,10 +2,9 @@
 //! `cargo test --release -p evenlight-points --features statistics --test curve_statistics`.
 #![cfg(feature = "statistics")]
 
-mod anchored;
-
-use anchored::anchored_discrepancy;
 use evenlight_points::Seed;
+use evenlight_points::quality::Rows;
+use evenlight_points::quality::star::{Kind, Settings, star_discrepancy};
 use evenlight_points::warp::curve::named;
 use evenlight_points::warp::curve::points::{CurvePoints, Source};
 
@@ -67,47 +66,23 @@ fn variances_fall_at_the_proven_rates_at_any_n() {
     }
 }
 
-/// −1/d: in two dimensions from 32 to 4096 points, in three from 8 to 216.
+/// −1/d, by least squares over counts half an octave apart.
 #[test]
 fn discrepancies_fall_as_the_side_of_a_cell() {
-    let square = |n: u64| {
-        let mut x = vec![0.0; 2 * n as usize];
-        fill(2, Source::Centered(n), 0, &mut x);
-        anchored_discrepancy(x.as_chunks().0, |s, t| s * t)
-    };
-    let counts = (0..15).map(|k| (32.0 * 2f64.powf(f64::from(k) / 2.0)).round() as u64);
-    let flat = slope(&counts.map(|n| (n as f64, square(n))).collect::<Vec<_>>());
-    assert!((flat + 0.5).abs() < 0.05, "{flat}");
-
-    let counts = (0..12).map(|k| (8.0 * 27f64.powf(f64::from(k) / 11.0)).round() as u64);
-    let cube = slope(&counts.map(|n| (n as f64, cube_discrepancy(n))).collect::<Vec<_>>());
-    assert!((cube + 1.0 / 3.0).abs() < 0.1, "{cube}");
-}
-
-/// The star discrepancy in three dimensions, by slices: points below each height are judged as pairs, counted over all n.
-fn cube_discrepancy(n: u64) -> f64 {
-    let mut x = vec![0.0; 3 * n as usize];
-    fill(3, Source::Centered(n), 0, &mut x);
-    let points = x.as_chunks::<3>().0;
-    let mut worst = 0.0_f64;
-    let bounds = |axis: usize| points.iter().map(move |point| point[axis]).chain([1.0]);
-    for r in bounds(0) {
-        for s in bounds(1) {
-            let mut last: Vec<_> = points
-                .iter()
-                .filter(|p| p[0] <= r && p[1] <= s)
-                .map(|p| (p[2], p[0] < r && p[1] < s))
-                .collect();
-            last.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            let (mut closed, mut open) = (0, 0);
-            for run in last.chunk_by(|a, b| a.0 == b.0) {
-                worst = worst.max(r * s * run[0].0 - f64::from(open) / n as f64);
-                closed += run.len() as i32;
-                open += run.iter().filter(|item| item.1).count() as i32;
-                worst = worst.max(f64::from(closed) / n as f64 - r * s * run[0].0);
-            }
-            worst = worst.max(r * s - f64::from(open) / n as f64);
-        }
+    for (dims, least, octaves) in [(2, 32, 7), (3, 8, 6), (4, 16, 4)] {
+        let counts =
+            (0..=2 * octaves).map(|k| (f64::from(least) * 2f64.powf(f64::from(k) / 2.0)).round() as u64);
+        let star = |n: u64| {
+            let mut x = vec![0.0; dims * n as usize];
+            fill(dims, Source::Centered(n), 0, &mut x);
+            let rows = Rows::new(&x, dims).expect("points");
+            let found = star_discrepancy(&rows, &Settings::default(), &mut |_| true).expect("legal");
+            let found = found.expect("an answer");
+            assert_eq!(found.kind, Kind::Exact, "{n} points in {dims} dimensions");
+            found.value
+        };
+        let slope = slope(&counts.map(|n| (n as f64, star(n))).collect::<Vec<_>>());
+        eprintln!("d = {dims}: {slope:.3}");
+        assert!((slope + 1.0 / dims as f64).abs() < 0.1, "d = {dims}: {slope}");
     }
-    worst
 }

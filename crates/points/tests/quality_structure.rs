@@ -124,11 +124,13 @@ fn triangle_discrepancies_are_those_of_their_definition() {
 /// Quality of the first 2^m Sobol' points with the directions of Joe and Kuo, m = 1, 2, …
 #[test]
 fn counting_finds_the_t_of_sobol_points() {
-    let known: [(usize, &[u32]); 4] = [
+    let known: [(usize, &[u32]); 6] = [
         (2, &[0, 0, 0, 0, 0, 0, 0, 0]),
         (3, &[0, 1, 1, 1, 1, 1, 1, 1, 1]),
         (4, &[0, 1, 2, 2, 2, 2, 2, 3, 3]),
         (5, &[0, 1, 2, 2, 2, 3, 3, 3]),
+        (6, &[0, 1, 2, 3, 2, 3, 3, 4]),
+        (7, &[0, 1, 2, 3, 2, 3, 3, 4]),
     ];
     for (dims, wanted) in known {
         for (m, &t) in (1..).zip(wanted) {
@@ -208,13 +210,23 @@ fn gain_coefficients_are_those_of_their_definition() {
 /// a power of two of at most 2^{t + |u| − 1}, and 0 where |u| + Σ k ≤ m − t.
 #[test]
 fn gains_of_sobol_points_are_powers_of_two() {
-    let (m, dims) = (4_u32, 3);
+    let mut largest = 0.0_f64;
+    for (dims, m) in (1..=5).flat_map(|dims| (1..=5).map(move |m| (dims, m))) {
+        largest = largest.max(largest_gain(dims, m));
+    }
+    assert_eq!(largest, 16.0);
+}
+
+/// The largest gain of all vectors of levels up to m, each of them checked.
+fn largest_gain(dims: usize, m: u32) -> f64 {
     let numbers = points("sobol", dims, 1 << m, Randomization::None, 0);
     let rows = Rows::new(&numbers, dims).expect("points");
     let t = smallest_t(&rows, 2).expect("a net");
     let mut largest = 0.0_f64;
-    for code in 1..6_u32.pow(3) {
-        let levels: Vec<Option<u32>> = [code % 6, code / 6 % 6, code / 36].map(|k| k.checked_sub(1)).to_vec();
+    let choices = m + 2;
+    for code in 1..choices.pow(dims as u32) {
+        let digit = |dim| code / choices.pow(dim) % choices;
+        let levels: Vec<Option<u32>> = (0..dims as u32).map(|dim| digit(dim).checked_sub(1)).collect();
         let gain = gain_coefficient(&rows, &levels, 2).expect("legal levels");
         let size = levels.iter().flatten().count() as u32;
         if size + levels.iter().flatten().sum::<u32>() <= m - t {
@@ -226,7 +238,7 @@ fn gains_of_sobol_points_are_powers_of_two() {
         );
         largest = largest.max(gain);
     }
-    assert_eq!(largest, 8.0);
+    largest
 }
 
 /// All boxes between coordinates of points, 0 and 1.
@@ -280,7 +292,8 @@ fn boxes_anywhere_are_as_bad_as_trying_all_of_them_says() {
             }
         });
         let rows = Rows::new(&numbers, dims).expect("points");
-        let (extreme, empty) = (extreme_discrepancy(&rows), dispersion(&rows, 100_000).expect("few boxes"));
+        let (extreme, empty) =
+            (extreme_discrepancy(&rows), dispersion(&rows, false, 100_000).expect("few boxes"));
         assert!((extreme.value - worst).abs() < 1e-14, "case {case}: {} {worst}", extreme.value);
         assert!(
             (empty.volume - largest_empty).abs() < 1e-14,
@@ -296,9 +309,61 @@ fn boxes_anywhere_are_as_bad_as_trying_all_of_them_says() {
     }
 }
 
+/// The largest empty box of the torus by its definition: sides from any coordinate to any other, or all around.
+fn largest_empty_on_torus(numbers: &[f64], dims: usize) -> f64 {
+    let sides: Vec<Vec<[f64; 2]>> = (0..dims)
+        .map(|dim| {
+            let line: Vec<f64> = numbers.chunks(dims).map(|point| point[dim] % 1.0).collect();
+            let pair = |&a: &f64| line.iter().map(move |&b| [a, if b > a { b } else { b + 1.0 }]);
+            line.iter().flat_map(pair).chain([[-1.0, 2.0]]).collect()
+        })
+        .collect();
+    let mut largest = 0.0_f64;
+    for mut number in 0..sides.iter().map(Vec::len).product::<usize>() {
+        let take = |sides: &Vec<[f64; 2]>| {
+            let at = number % sides.len();
+            number /= sides.len();
+            sides[at]
+        };
+        let chosen: Vec<_> = sides.iter().map(take).collect();
+        let inside = |point: &[f64]| {
+            let within = |(x, [a, b]): (&f64, &[f64; 2])| {
+                let x = x % 1.0;
+                a < &x && &x < b || a < &(x + 1.0) && &(x + 1.0) < b
+            };
+            point.iter().zip(&chosen).all(within)
+        };
+        if !numbers.chunks(dims).any(inside) {
+            largest = largest.max(chosen.iter().map(|[a, b]| (b - a).min(1.0)).product());
+        }
+    }
+    largest
+}
+
+#[test]
+fn empty_boxes_of_the_torus_are_as_large_as_trying_all_of_them_says() {
+    for case in 0..90_u64 {
+        let dims = 1 + case as usize % 3;
+        let n = 1 + case as usize % [30, 12, 6][dims - 1];
+        let mut numbers = random(case, n * dims);
+        if case % 2 == 0 {
+            numbers = numbers.iter().map(|x| (x * 4.0).floor() / 3.0).collect();
+        }
+        let rows = Rows::new(&numbers, dims).expect("points");
+        let found = dispersion(&rows, true, 100_000).expect("few boxes");
+        let wanted = largest_empty_on_torus(&numbers, dims);
+        assert!((found.volume - wanted).abs() < 1e-14, "case {case}: {} {wanted}", found.volume);
+        let inside = dispersion(&rows, false, 100_000).expect("few boxes").volume;
+        assert!(inside <= found.volume + 1e-14);
+        let sides = found.lower.iter().zip(&found.upper);
+        assert!((sides.map(|(a, b)| b - a).product::<f64>() - found.volume).abs() < 1e-14);
+    }
+}
+
 #[test]
 fn a_search_for_empty_boxes_that_would_be_too_long_is_refused() {
     let numbers = points("halton", 2, 500, Randomization::None, 0);
-    let message = dispersion(&Rows::new(&numbers, 2).expect("points"), 100).expect_err("refused").to_string();
+    let message =
+        dispersion(&Rows::new(&numbers, 2).expect("points"), false, 100).expect_err("refused").to_string();
     assert!(message.starts_with("more than 100 boxes"), "{message}");
 }

@@ -1,11 +1,9 @@
 //! Points of triangles against their theory: discrepancies, exact errors and exact variances.
 
-mod anchored;
-
 use std::f64::consts::PI;
 
-use anchored::parallelogram_discrepancy;
 use evenlight_points::Seed;
+use evenlight_points::quality::triangle::{Sets, triangle_discrepancy};
 use evenlight_points::scramble::Randomization;
 use evenlight_points::warp::triangle::kronecker::kronecker;
 use evenlight_points::warp::triangle::product::Product;
@@ -18,6 +16,10 @@ fn sequence(randomization: Randomization, seed: Seed) -> VanDerCorput {
 fn first(n: u64) -> Vec<[f64; 3]> {
     let points = sequence(Randomization::None, Seed::new(0));
     (0..n).map(|index| points.barycentric(index)).collect()
+}
+
+fn parallelogram_discrepancy(points: &[[f64; 3]]) -> f64 {
+    triangle_discrepancy(points, Sets::Parallelograms).expect("points of the triangle").worst.value
 }
 
 /// Basu & Owen 2015: the first eight points, and 2/(3√n) − 1/(9n) at n = 4^k.

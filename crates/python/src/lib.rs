@@ -2,6 +2,7 @@
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 gives away what it converts")]
 
+mod blue_noise;
 mod curve;
 mod errors;
 mod families;
@@ -18,6 +19,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    blue_noise::register(module)?;
     curve::register(module)?;
     families::register(module)?;
     lattices::register(module)?;

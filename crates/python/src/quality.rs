@@ -193,9 +193,14 @@ fn gain_coefficient(py: Python<'_>, x: Points<'_>, levels: Vec<Option<u32>>, bas
 
 /// The volume of the largest empty box, and where it is.
 #[pyfunction]
-fn dispersion(py: Python<'_>, x: Points<'_>, limit: usize) -> PyResult<(f64, Vec<f64>, Vec<f64>)> {
+fn dispersion(
+    py: Python<'_>,
+    x: Points<'_>,
+    torus: bool,
+    limit: usize,
+) -> PyResult<(f64, Vec<f64>, Vec<f64>)> {
     let x = rows(&x)?;
-    let found = py.detach(|| quality::dispersion::dispersion(&x, limit)).map_err(raise)?;
+    let found = py.detach(|| quality::dispersion::dispersion(&x, torus, limit)).map_err(raise)?;
     Ok((found.volume, found.lower, found.upper))
 }
 

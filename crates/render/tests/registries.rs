@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use evenlight_points::{scramble, sequences, warp};
+use evenlight_points::{blue_noise, scramble, sequences, warp};
 use evenlight_render::{bsdf, emitter, filter, integrator, sampler, sensor, shape, texture};
 
 /// A family: its folder below `crates`, the names in its registry, and the files that several of its members share.
@@ -22,6 +22,12 @@ fn families() -> Vec<Family> {
     vec![
         ("points/src/sequences", names!(sequences::ALL), &[]),
         ("points/src/scramble", names!(scramble::ALL), &["matrix"]),
+        (
+            "points/src/blue_noise",
+            names!(blue_noise::ALL),
+            // masks and pixels are no points
+            &["decay", "pixel_order", "torus", "void_and_cluster"],
+        ),
         (
             "points/src/warp",
             names!(warp::ALL),

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from evenlight.warp import TriangleRoot, Warp
+
 from .domain import Array, Domain
 
 __all__ = ["Triangle"]
-
-
-def _root(u: Array) -> Array:
-    """The usual map of the square to the triangle x, y >= 0, x + y <= 1: G. Turk, Graphics Gems, 24-28 (1990)."""
-    root = np.sqrt(u[:, :1])
-    return np.hstack([root * (1 - u[:, 1:]), root * u[:, 1:]])
 
 
 class Triangle(Domain):
@@ -25,14 +20,14 @@ class Triangle(Domain):
     ----------
     corners : array_like, shape (3, k)
         In k = 2 or more dimensions.
-    warp : callable, optional
-        From uniform points, shape (n, 2), to points of the triangle x, y >= 0, x + y <= 1, that keeps areas; the usual
-        square root by default.
+    warp : evenlight.warp.Warp, optional
+        From two uniform numbers to barycentric coordinates: `evenlight.warp.TriangleRoot` by default, which is
+        continuous; `TriangleHeitz` distorts less.
 
     Raises
     ------
     ValueError
-        If the corners have another shape, or lie on a line.
+        If the corners have another shape, or lie on a line, or the warp leads elsewhere.
 
     Examples
     --------
@@ -48,17 +43,19 @@ class Triangle(Domain):
     name = "triangle"
     d = 2
 
-    def __init__(self, corners: Any, warp: Callable[[Array], Array] | None = None) -> None:
+    def __init__(self, corners: Any, warp: Warp | None = None) -> None:
         self.corners = np.asarray(corners, np.float64)
         if self.corners.ndim != 2 or len(self.corners) != 3 or self.corners.shape[1] < 2:
             raise ValueError(f"corners must be three points of at least two coordinates, not {self.corners.shape}")
-        self._sides = self.corners[1:] - self.corners[0]
-        gram = self._sides @ self._sides.T
+        sides = self.corners[1:] - self.corners[0]
+        gram = sides @ sides.T
         self.volume = 0.5 * float(np.sqrt(max(0.0, np.linalg.det(gram))))
         if not self.volume > 1e-14 * float(np.trace(gram)):
             raise ValueError("the corners lie on a line")
-        self._warp = _root if warp is None else warp
+        self.warp = TriangleRoot() if warp is None else warp
+        if (self.warp.inputs, self.warp.outputs) != (2, 3):
+            raise ValueError(f"warp must lead from the square to a triangle, not {self.warp}")
 
     def map(self, u: Array) -> Array:
         """Points of the triangle."""
-        return np.asarray(self.corners[0] + self._warp(u) @ self._sides)
+        return np.asarray(self.warp.map(u) @ self.corners)

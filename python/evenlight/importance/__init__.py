@@ -8,6 +8,7 @@ from evenlight.importance.mixture_estimate import mixture_estimate
 from evenlight.importance.multiple import multiple_importance
 from evenlight.importance.optimal import OptimalMixture, optimal_mixture
 from evenlight.importance.plain import importance_sampling
+from evenlight.importance.vegas_grid import vegas_estimate
 
 __all__ = [
     "DENSITIES",
@@ -28,5 +29,6 @@ __all__ = [
     "multiple_importance",
     "optimal_mixture",
     "tail_index",
+    "vegas_estimate",
     "weights",
 ]

@@ -5,21 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple, SupportsIndex
 
-import numpy as np
-
 from evenlight.estimate import Estimate, from_error
 from evenlight.importance.densities import Density
 from evenlight.importance.densities.density import Array
-from evenlight.importance.mixture import Mixture, counts
-from evenlight.importance.mixture_estimate import mixture_estimate, values
-from evenlight.importance.optimal import optimal_mixture
+from evenlight.importance.learning import Learning
+from evenlight.importance.mixture import Mixture
+from evenlight.importance.mixture_estimate import mixture_estimate
 from evenlight.integrand import Integrand
 from evenlight.points import Independent
 
 __all__ = ["LearnedMixture", "adaptive_estimate", "learn_mixture"]
-
-_DEFENSIVE = 0.1  # the target's share while components move
-_STEPS = 2  # of fitting in each round
 
 
 class LearnedMixture(NamedTuple):
@@ -51,7 +46,8 @@ def learn_mixture(
     Parameters
     ----------
     f : callable
-        From points, shape (m, d), to values, shape (m,).
+        From points, shape (m, d), to values, shape (m,) or (m, ...). For several values the variance is the sum of
+        theirs, each over its squared mean of |f|.
     target : density
         p, normalized; it stays among the components, as the defensive one.
     proposals : sequence of densities
@@ -99,7 +95,7 @@ def learn_mixture(
     if not 1 <= rounds <= n // (len(proposals) + 1):
         raise ValueError(f"{n} values are not enough for {rounds} rounds of {len(proposals) + 1} components")
     start = Mixture(target, proposals)
-    learning = _Learning(Integrand(f, None, "raise"), start, aim)
+    learning = Learning(Integrand(f, None, "raise"), start, aim)
     source = Independent(start.uniforms, seed=seed)
     for number in range(rounds):
         learning.look(source.replicate(number), n // rounds + (number < n % rounds))
@@ -107,7 +103,8 @@ def learn_mixture(
             learning.reweigh(floor)
         else:
             learning.fit()
-    return learning.learned(floor, n)
+    components, alpha, gap = learning.learned(floor)
+    return LearnedMixture(tuple(components), alpha, gap, n)
 
 
 def adaptive_estimate(
@@ -166,106 +163,3 @@ def adaptive_estimate(
     )
     diagnostics = estimate.diagnostics | {"gap": learned.gap}
     return from_error(estimate, method="adaptive mixture", cost=float(n), diagnostics=diagnostics)
-
-
-class _Learning:
-    """All points so far, and the components as they are now."""
-
-    def __init__(self, integrand: Integrand, start: Mixture, aim: str) -> None:
-        self._integrand = integrand
-        self._target = start.target
-        self._aim = aim
-        self.components: list[Density] = [q for q in start.proposals if q is not start.target] + [start.target]
-        self._first, self._moved = self.components, list[Density]()
-        self._first_densities = np.empty((0, len(self._first)))
-        share = (1 - _DEFENSIVE) / max(1, len(self.components) - 1)
-        self.alpha = np.append(np.full(len(self.components) - 1, share), 1 - share * (len(self.components) - 1))
-        self._history: list[tuple[int, list[Density], Array]] = []
-        self._x = np.empty((0, start.d))
-        self._spent = np.empty(0)
-        self.y = np.empty(0)
-
-    def look(self, source: Any, size: int) -> None:
-        """Draw a round from the mixture as it is now, and evaluate it."""
-        mixture = Mixture(self._target, self.components)
-        component = np.repeat(np.arange(len(mixture)), counts(self.alpha, size))
-        sample = mixture.at(component, source.points(0, size))
-        scale = np.exp(self._target.logpdf(sample.x)) / np.where(sample.target > 0, sample.target, 1.0)
-        self.y = np.concatenate([self.y, values(self._integrand, sample) * scale])
-        self._history.append((size, self.components, self.alpha))
-        # the sum over rounds of size times density: the old points learn of the new round, the new ones of all
-        old = self._spent + size * _density(self._x, self.components, self.alpha)
-        new = np.zeros(size)
-        for count, components, alpha in self._history:
-            new += count * _density(sample.x, components, alpha)
-        self._spent = np.concatenate([old, new])
-        self._x = np.concatenate([self._x, sample.x])
-        self._first_densities = np.concatenate([self._first_densities, _densities(sample.x, self._first)])
-        if not self.y.any():
-            raise ValueError(f"f p is 0 at all {len(self.y)} points of the first round; begin with better proposals")
-
-    def spent_density(self) -> Array:
-        """The mean density of all rounds at all points."""
-        return self._spent / len(self._spent)
-
-    def densities(self) -> Array:
-        """Those of the components as they are now, at all points, shape (n, J)."""
-        return _densities(self._x, self.components)
-
-    def learned(self, floor: Any, n: int) -> LearnedMixture:
-        """What moved, and the proposals of the beginning, which floors keep as an insurance; optimal weights."""
-        q = (
-            np.column_stack([_densities(self._x, self._moved), self._first_densities])
-            if self._moved
-            else self._first_densities
-        )
-        best = optimal_mixture(self.y, q, self.spent_density(), floor=floor)
-        return LearnedMixture((*self._moved, *self._first), best.alpha, best.gap, n)
-
-    def reweigh(self, floor: Any) -> None:
-        """Take the optimal weights for what was seen so far."""
-        self.alpha = optimal_mixture(self.y, self.densities(), self.spent_density(), floor=floor).alpha
-
-    def fit(self) -> None:
-        """Move the components towards where f p, or its second moment, is; take the best of old and new ones."""
-        components, alpha, q = self.components, self.alpha, self.densities()
-        old = q
-        for _ in range(_STEPS):
-            mixed = q @ alpha
-            weights = np.abs(self.y) / self._spent
-            if self._aim == "variance":
-                weights = weights * np.abs(self.y) / mixed
-            weights = np.minimum(weights, weights.mean() * np.sqrt(len(weights)))
-            shared = q[:, :-1] * alpha[:-1] * (weights / mixed)[:, np.newaxis]
-            mass = shared.sum(axis=0)
-            kept = np.flatnonzero(mass > 1e-4 * mass.sum())
-            components = [*(components[k].fitted(self._x, shared[:, k]) for k in kept), self._target]
-            alpha = np.append((1 - _DEFENSIVE) * mass[kept] / mass[kept].sum(), _DEFENSIVE)
-            q = _densities(self._x, components)
-        candidates = [*components[:-1], *self._moved, *self._first]
-        moved = [k for k, component in enumerate(self.components) if any(component is m for m in self._moved)]
-        self._choose(candidates, np.column_stack([q[:, :-1], old[:, moved], self._first_densities]))
-
-    def _choose(self, candidates: list[Density], q: Array) -> None:
-        """Keep the candidates that carry weight in the best mixture of them all, and the target.
-
-        The proposals of the beginning are always candidates: what moved may have left something uncovered.
-        """
-        floor = 0.1 / len(candidates)
-        best = optimal_mixture(self.y, q, self.spent_density(), floor=floor, control_variates=False)
-        chosen = np.union1d(np.flatnonzero(best.alpha > 1.5 * floor), [len(candidates) - 1])
-        self.components = [candidates[k] for k in chosen]
-        self._moved = [component for component in self.components if not any(component is q for q in self._first)]
-        self.alpha = np.maximum(best.alpha[chosen], 0.1 / len(chosen))
-        self.alpha /= self.alpha.sum()
-
-
-def _densities(x: Array, components: list[Density]) -> Array:
-    return np.stack([np.exp(component.logpdf(x)) for component in components], axis=1)
-
-
-def _density(x: Array, components: list[Density], alpha: Array) -> Array:
-    total = np.zeros(len(x))
-    for share, component in zip(alpha, components, strict=True):
-        total += share * np.exp(component.logpdf(x))
-    return total

@@ -7,12 +7,13 @@ from typing import Any, Literal, SupportsIndex
 
 import numpy as np
 
-from evenlight.estimate import Estimate, from_error, from_moments
+from evenlight.estimate import Estimate, from_error, from_moments, plain
 from evenlight.importance import regression
 from evenlight.importance.densities.density import Array
 from evenlight.importance.diagnostics import effective_sample_size, tail_index
 from evenlight.importance.mixture import Mixture, Sample, counts
 from evenlight.importance.optimal import OptimalMixture, optimal_mixture
+from evenlight.importance.strata import Strata
 from evenlight.integrand import Integrand
 from evenlight.moments import Moments
 from evenlight.points import Independent
@@ -39,7 +40,7 @@ def mixture_estimate(
     Parameters
     ----------
     f : callable
-        From points, shape (m, d), to values, shape (m,).
+        From points, shape (m, d), to values, shape (m,) or (m, ...).
     target : density
         p, normalized: see `as_density`.
     proposals : sequence of densities
@@ -124,7 +125,9 @@ def _learn(mixture: Mixture, integrand: Integrand, source: Any, size: int, floor
     """Optimal weights, from a pilot sample of the uniform mixture."""
     uniform = np.full(len(mixture), 1.0 / len(mixture))
     sample = _draw_in_strata(mixture, uniform, source, size)
-    return optimal_mixture(values(integrand, sample), sample.q, sample.q @ uniform, floor=floor, control_variates=cv)
+    fp = values(integrand, sample)
+    fp = fp if fp.ndim == 1 else fp.reshape(size, -1)
+    return optimal_mixture(fp, sample.q, sample.q @ uniform, floor=floor, control_variates=cv)
 
 
 def _draw_in_strata(mixture: Mixture, alpha: Array, source: Any, n: int) -> Sample:
@@ -135,47 +138,42 @@ def _draw_in_strata(mixture: Mixture, alpha: Array, source: Any, n: int) -> Samp
 def values(integrand: Integrand, sample: Sample) -> Array:
     """F p at the points of a sample; 0 where p is 0, whatever f is."""
     inside = sample.target > 0
-    found = np.zeros(len(sample.x))
-    if inside.any():
-        y, _ = integrand(sample.x[inside], 0)
-        if y.ndim != 1:
-            raise ValueError(f"f must return one number for each point, not {y.shape[1:]}")
-        found[inside] = y * sample.target[inside]
+    if not inside.any():
+        return np.zeros(len(sample.x))
+    y = (integrand(sample.x[inside], 0)[0].T * sample.target[inside]).T
+    found = np.zeros((len(sample.x), *y.shape[1:]))
+    found[inside] = y
     return found
 
 
 def _reduced(sample: Sample, fp: Array, alpha: Array, cv: bool) -> tuple[Array, Array | None, int]:
-    """Values whose mean is the estimate; coefficients; how many degrees of freedom they took."""
+    """Values whose mean is the estimate, shape (n, k); coefficients; how many degrees of freedom they took."""
     t = sample.q @ alpha
-    y = fp / t
+    y = fp.reshape(len(fp), -1) / t[:, np.newaxis]
     if not cv:
         return y, None, 0
     fitted = regression.fit(y, sample.q / t[:, np.newaxis])
-    return fitted.residuals + fitted.beta.sum(), fitted.beta, fitted.rank - 1
+    beta = fitted.beta.reshape(len(alpha), *fp.shape[1:])
+    return fitted.residuals + fitted.beta.sum(axis=0), beta, fitted.rank - 1
 
 
 def _in_strata(mixture: Mixture, integrand: Integrand, alpha: Array, source: Any, n: int, cv: bool) -> Estimate:
     sample = _draw_in_strata(mixture, alpha, source, n)
-    y, beta, taken = _reduced(sample, values(integrand, sample), alpha, cv)
-    numbers = np.bincount(sample.component, minlength=len(alpha))
-    sums = np.bincount(sample.component, y, minlength=len(alpha))
-    means = sums / np.maximum(numbers, 1)
-    # a component with one point has no spread of its own: it is judged by its distance from the mean of all
-    from_mean = y - np.where(numbers > 1, means, y.mean())[sample.component]
-    squares = np.bincount(sample.component, from_mean**2, minlength=len(alpha))
-    variances = numbers * squares / np.maximum(numbers - 1, 1) / n**2 * (n / max(n - taken, 1))
-    total = float(variances.sum())
-    degrees = total**2 / float((variances**2 / np.maximum(numbers - 1, 1)).sum()) if total > 0 else float(n - 1)
+    fp = values(integrand, sample)
+    y, beta, taken = _reduced(sample, fp, alpha, cv)
+    strata = Strata.of(y, sample.component, len(alpha))
+    error, degrees = strata.error(strata.numbers / n)
+    error = plain((error * np.sqrt(n / max(n - taken, 1))).reshape(fp.shape[1:]))
     return Estimate(
-        value=float(y.mean()),
-        standard_error=float(np.sqrt(total)),
+        value=plain(y.mean(axis=0).reshape(fp.shape[1:])),
+        standard_error=error,
         n=n,
         replicates=n,
         cost=float(n),
         method="mixture",
         message="as many function values as asked",
-        diagnostics=_diagnostics(sample, alpha, beta) | {"variance": total * n},
-        degrees_of_freedom=max(degrees, 1.0),
+        diagnostics=_diagnostics(sample, alpha, beta) | {"variance": error**2 * n},
+        degrees_of_freedom=degrees,
     )
 
 
@@ -188,10 +186,11 @@ def _in_replicates(
         raise ValueError(f"n is less than the number of replicates, {replicates}")
     u = points.points(0, rows, replicates=replicates).reshape(-1, mixture.uniforms)
     sample = mixture.draw(alpha, u)
-    y, beta, _ = _reduced(sample, values(integrand, sample), alpha, cv)
-    means = y.reshape(replicates, rows).mean(axis=1)
+    fp = values(integrand, sample)
+    y, beta, _ = _reduced(sample, fp, alpha, cv)
+    means = y.reshape(replicates, rows, *fp.shape[1:]).mean(axis=1)
     moments = Moments.of(means)
-    extra = {"variance": float(moments.standard_error) ** 2 * len(u), "replicates": means, "points": (repr(points),)}
+    extra = {"variance": plain(moments.standard_error) ** 2 * len(u), "replicates": means, "points": (repr(points),)}
     return from_moments(
         ((rows, moments),),
         method="mixture",

@@ -10,9 +10,30 @@ from scipy import linalg
 
 from evenlight.importance.densities.density import Array
 
-__all__ = ["Face", "Pilot", "certificate"]
+__all__ = ["Face", "Pilot", "certificate", "together"]
 
 _CUTOFF = 1e-13  # of eigenvalues of normal equations
+
+
+def together(fp: Array, density: Array) -> Array:
+    """One function for several, whose second moment is the sum of theirs, each over its squared mean size.
+
+    Parameters
+    ----------
+    fp : ndarray of float64, shape (n, k)
+        Integrands times target density, not all 0.
+    density : ndarray of float64, shape (n,)
+        The density that the points were drawn from.
+
+    Returns
+    -------
+    ndarray of float64, shape (n,)
+        For k = 1, f p itself.
+    """
+    if fp.shape[1] == 1:
+        return fp[:, 0]
+    sizes = np.mean(np.abs(fp) / density[:, np.newaxis], axis=0)
+    return np.asarray(np.sqrt(((fp[:, sizes > 0] / sizes[sizes > 0]) ** 2).sum(axis=1)))
 
 
 class Pilot(NamedTuple):
@@ -47,12 +68,12 @@ class Face:
 
     def __init__(self, pilot: Pilot, chosen: NDArray[np.intp], with_beta: bool) -> None:
         self._pilot = pilot
-        self._z = np.ascontiguousarray(pilot.q[:, chosen])
+        self._z = pilot.q.T[chosen]
         self._with_beta = with_beta
 
     def mixture(self, a: Array) -> Array:
         """The mixture's density at the pilot points."""
-        return np.asarray(self._pilot.base + self._z @ a)
+        return np.asarray(self._pilot.base + a @ self._z)
 
     def residuals(self, t: Array) -> Array:
         """What beta leaves of f p where the mixture's density is t."""
@@ -69,10 +90,11 @@ class Face:
         n = len(t)
         residuals, vectors, values = self._solve(t) if self._with_beta else (self._pilot.fp, None, None)
         terms = residuals**2 / (self._pilot.density * t)
-        gradient = -(terms / t) @ self._z / n
-        hessian = 2 * (self._z.T * (terms / t**2)) @ self._z / n
+        terms_over_t = terms / t
+        gradient = -(self._z @ terms_over_t) / n
+        hessian = 2 * (self._z * (terms_over_t / t)) @ self._z.T / n
         if vectors is not None and values is not None:
-            mixed = (self._pilot.q.T * (residuals / (self._pilot.density * t**2))) @ self._z
+            mixed = (self._pilot.q.T * (residuals / (self._pilot.density * t**2))) @ self._z.T
             reduced = vectors.T @ mixed
             hessian = hessian - 2 * reduced.T @ (reduced / values[:, np.newaxis]) / n
         return float(terms.mean()), gradient, hessian

@@ -7,10 +7,11 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
-from evenlight.estimate import Estimate, from_error
+from evenlight.estimate import Estimate, from_error, plain
 from evenlight.importance import heuristics
 from evenlight.importance.mixture import Mixture
 from evenlight.importance.mixture_estimate import values
+from evenlight.importance.strata import Strata
 from evenlight.integrand import Integrand
 from evenlight.points import Independent
 
@@ -31,7 +32,7 @@ def multiple_importance(
     Parameters
     ----------
     f : callable
-        From points, shape (m, d), to values, shape (m,).
+        From points, shape (m, d), to values, shape (m,) or (m, ...).
     target : density
         p, normalized: see `as_density`.
     proposals : sequence of densities
@@ -70,20 +71,23 @@ def multiple_importance(
     component = np.repeat(np.arange(len(mixture)), numbers)
     sample = mixture.at(component, Independent(mixture.uniforms - 1, seed=seed).points(0, n))
     shares = heuristics.weights(heuristic, sample.q * numbers)[np.arange(n), component]
-    y = shares * values(Integrand(f, None, "raise"), sample) / sample.q[np.arange(n), component]
-    means = np.bincount(component, y) / numbers
-    variances = np.bincount(component, (y - means[component]) ** 2) / (numbers - 1) / numbers
-    total = float(variances.sum())
-    degrees = total**2 / float((variances**2 / (numbers - 1)).sum()) if total > 0 else float(n - 1)
+    fp = values(Integrand(f, None, "raise"), sample)
+    y = fp.reshape(n, -1) * (shares / sample.q[np.arange(n), component])[:, np.newaxis]
+    strata = Strata.of(y, component, len(mixture))
+    value = strata.means.sum(axis=0)
+    error, degrees = strata.error(np.ones(len(mixture)))
     estimate = Estimate(
-        value=float(means.sum()),
-        standard_error=float(np.sqrt(total)),
+        value=plain(value.reshape(fp.shape[1:])),
+        standard_error=plain(error.reshape(fp.shape[1:])),
         n=n,
         replicates=n,
         cost=float(n),
         method=f"multiple importance ({heuristic})",
         message="as many function values as asked",
-        diagnostics={"counts": numbers, "shares": means / means.sum() if means.sum() else means},
+        diagnostics={
+            "counts": numbers,
+            "shares": (strata.means / np.where(value, value, 1.0)).reshape(-1, *fp.shape[1:]),
+        },
         degrees_of_freedom=degrees,
     )
     return from_error(estimate)

@@ -11,7 +11,7 @@ from evenlight.estimate import NotConvergedWarning
 from evenlight.importance import regression
 from evenlight.importance.active_set import minimize_on_simplex
 from evenlight.importance.densities.density import Array
-from evenlight.importance.mixture_objective import Face, Pilot, certificate
+from evenlight.importance.mixture_objective import Face, Pilot, certificate, together
 
 __all__ = ["OptimalMixture", "optimal_mixture"]
 
@@ -27,9 +27,10 @@ class OptimalMixture(NamedTuple):
     alpha: Array
     """Weights of the mixture, shape (J,): at least their floors, of sum 1."""
     beta: Array | None
-    """Coefficients of the densities as control variates, shape (J,)."""
-    variance: float
-    """Of one sample of the mixture: n times the variance of the estimate, as the pilot sample sees it."""
+    """Coefficients of the densities as control variates, shape (J,), or (J, k) for k integrands."""
+    variance: Any
+    """Of one sample of the mixture: n times the variance of the estimate, as the pilot sample sees it; of shape (k,)
+    for k integrands."""
     gap: float
     """The relative duality gap: no weights have a second moment below (1 - gap) times that of these."""
 
@@ -47,8 +48,9 @@ def optimal_mixture(
 
     Parameters
     ----------
-    fp : array_like, shape (n,)
-        Integrand times target density at the pilot points.
+    fp : array_like, shape (n,) or (n, k)
+        Integrand times target density at the pilot points. For several integrands the weights minimize the sum of
+        their second moments, each over its squared mean of |f|.
     q : array_like, shape (n, J)
         Densities of the components there.
     pilot_density : array_like, shape (n,)
@@ -56,7 +58,7 @@ def optimal_mixture(
     floor : float or array_like of shape (J,), optional
         The least weight of every component; it bounds the variance by that of component j over its floor. By default
         0.1 / J.
-    control_variates : bool or "joint"
+    control_variates : bool or "joint", which takes one integrand
         True: weights that are best without control variates, then the best coefficients for them. "joint": weights and
         coefficients that are best together; better on the pilot sample, and not always on the next. False: no
         coefficients.
@@ -92,30 +94,32 @@ def optimal_mixture(
     >>> optimal_mixture([1.0], [[2.0, 3.0]], [1.0], floor=0.005, control_variates=False).alpha.round(3)
     array([0.005, 0.995])
     """
-    pilot = _checked(fp, q, pilot_density, floor)
+    values, pilot = _checked(fp, q, pilot_density, floor)
     if not 0 < gap < 1:
         raise ValueError(f"gap must be between 0 and 1, not {gap}")
     if control_variates not in (True, False, "joint"):
         raise ValueError(f"control_variates must be True, False or 'joint', not {control_variates!r}")
-    mean = float(np.mean(pilot.fp / pilot.density))
+    if control_variates == "joint" and values.ndim > 1:
+        raise ValueError(f"control_variates='joint' takes one integrand, not {values.shape[1]}")
     above, reached = _solve(pilot, _coarse(pilot), gap, with_beta=False)
     if control_variates == "joint":
         above, reached = _solve(pilot, above, gap, with_beta=True)
     alpha = pilot.floors + above
     alpha /= alpha.sum()
-    t = pilot.q @ alpha
+    weights = 1.0 / (pilot.density * (pilot.q @ alpha))
+    mean = (values.T / pilot.density).mean(axis=-1)
     if control_variates is False:
-        second = float(np.mean(pilot.fp**2 / (pilot.density * t)))
-        return OptimalMixture(alpha, None, second - mean**2, reached)
-    fitted = regression.fit(pilot.fp, pilot.q, 1.0 / (pilot.density * t))
-    second = float(np.mean(fitted.residuals**2 / (pilot.density * t)))
-    return OptimalMixture(alpha, fitted.beta, second - (mean - float(fitted.beta.sum())) ** 2, reached)
+        return OptimalMixture(alpha, None, (values.T**2 * weights).mean(axis=-1) - mean**2, reached)
+    fitted = regression.fit(values, pilot.q, weights)
+    second = (fitted.residuals.T**2 * weights).mean(axis=-1)
+    return OptimalMixture(alpha, fitted.beta, second - (mean - fitted.beta.sum(axis=0)) ** 2, reached)
 
 
-def _checked(fp: Any, q: Any, pilot_density: Any, floor: Any) -> Pilot:
+def _checked(fp: Any, q: Any, pilot_density: Any, floor: Any) -> tuple[Array, Pilot]:
     values, density = np.asarray(fp, np.float64), np.asarray(pilot_density, np.float64)
     matrix = np.asarray(q, np.float64)
-    if matrix.ndim != 2 or values.shape != (len(matrix),) or density.shape != values.shape:
+    rows = values.shape[:1]
+    if values.ndim not in (1, 2) or matrix.shape[:-1] != rows or density.shape != rows:
         raise ValueError(
             f"fp {values.shape}, q {matrix.shape} and pilot_density {density.shape} are not (n,), (n, J), (n,)"
         )
@@ -129,7 +133,7 @@ def _checked(fp: Any, q: Any, pilot_density: Any, floor: Any) -> Pilot:
         raise ValueError(f"floors must not be negative, and add up to at most 1, not {floors.sum():.6g}")
     if not values.any():
         raise ValueError(f"f p is 0 at all {n} pilot points: nothing to learn from; take more, or better proposals")
-    return Pilot(values, matrix, density, floors, matrix @ floors)
+    return values, Pilot(together(values.reshape(n, -1), density), matrix, density, floors, matrix @ floors)
 
 
 def _coarse(pilot: Pilot) -> Array:

@@ -7,7 +7,7 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
-from evenlight.estimate import Estimate, from_error, from_moments
+from evenlight.estimate import Estimate, from_error, from_moments, plain
 from evenlight.importance.densities import as_density
 from evenlight.importance.diagnostics import effective_sample_size, tail_index
 from evenlight.integrand import Integrand
@@ -31,7 +31,7 @@ def importance_sampling(
     Parameters
     ----------
     f : callable
-        From points, shape (m, d), to values, shape (m,).
+        From points, shape (m, d), to values, shape (m,) or (m, ...).
     target : density
         p: see `as_density`. It need not be normalized if `self_normalized`.
     proposal : density
@@ -71,18 +71,19 @@ def importance_sampling(
     scale = float(logs.max()) if self_normalized else 0.0
     weights = np.exp(logs - scale)
     inside = weights > 0
-    y = np.zeros(n)
-    y[inside] = Integrand(f, None, "raise")(x[inside], 0)[0]
+    found = Integrand(f, None, "raise")(x[inside], 0)[0]
+    y = np.zeros((n, *found.shape[1:]))
+    y[inside] = found
     diagnostics = {
         "ess": effective_sample_size(weights),
         "largest_weight": float(weights.max()),
         "tail_index": tail_index(weights),
     }
-    moments = Moments.of(weights * y)
+    moments = Moments.of((y.T * weights).T)
     if not self_normalized:
         return from_moments(((1, moments),), method="importance", cost=float(n), diagnostics=diagnostics)
-    ratio = float(moments.mean / weights.mean())
-    error = float(np.sqrt(((weights * (y - ratio)) ** 2).sum()) / weights.sum())
+    ratio = plain(moments.mean / weights.mean())
+    error = plain(np.sqrt((((y - ratio).T * weights) ** 2).sum(axis=-1).T) / weights.sum())
     estimate = Estimate(
         ratio, error, n, n, float(n), "self-normalized importance", diagnostics=diagnostics, degrees_of_freedom=n - 1.0
     )

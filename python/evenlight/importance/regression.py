@@ -19,9 +19,9 @@ class Fit(NamedTuple):
     """What a regression says."""
 
     beta: Array
-    """Coefficients of the densities, shape (J,); of several solutions the shortest."""
+    """Coefficients of the densities, shape (J,) or (J, k); of several solutions the shortest."""
     residuals: Array
-    """What is left, shape (n,)."""
+    """What is left, of the shape of y."""
     rank: int
     """How many densities are independent of each other."""
 
@@ -33,8 +33,8 @@ def fit(y: Array, x: Array, weights: Array | None = None) -> Fit:
 
     Parameters
     ----------
-    y : ndarray of float64, shape (n,)
-        Values.
+    y : ndarray of float64, shape (n,) or (n, k)
+        Values; every column is fitted by itself.
     x : ndarray of float64, shape (n, J)
         Densities.
     weights : ndarray of float64, shape (n,), optional
@@ -49,6 +49,7 @@ def fit(y: Array, x: Array, weights: Array | None = None) -> Fit:
     matrix = x if root is None else x * root[:, np.newaxis]
     lengths = np.sqrt(np.einsum("ij,ij->j", matrix, matrix))
     lengths[lengths == 0] = 1.0
-    scaled, rank = linalg.lstsq(matrix / lengths, y if root is None else y * root, cond=CUTOFF)[0:3:2]
-    beta = np.asarray(scaled / lengths)
+    values = y if root is None else (y.T * root).T
+    scaled, rank = linalg.lstsq(matrix / lengths, values, cond=CUTOFF, check_finite=False)[0:3:2]
+    beta = np.asarray((scaled.T / lengths).T)
     return Fit(beta, y - x @ beta, int(rank))

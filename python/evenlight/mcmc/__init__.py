@@ -5,28 +5,62 @@ chains of any kernel, driven by any sequence.
 """
 
 from .chains import Chains
-from .driving import DRIVING, LFSR, Driving, IndependentNumbers
+from .diagnostics import Diagnostics
+from .driving import DRIVING, LCG, LFSR, Antithetic, Driving, IndependentNumbers, Permuted, Stratified
 from .kernel import Info, Kernel, State, WarmUp
-from .kernels import HMC, KERNELS, MALA, Gibbs, Independence, MetropolisHastings, Proposal, RandomWalk
+from .kernels import (
+    HMC,
+    KERNELS,
+    MALA,
+    DelayedRejection,
+    Gibbs,
+    HerdedGibbs,
+    Independence,
+    MetropolisHastings,
+    MultipleTry,
+    ParallelTempering,
+    Proposal,
+    RandomWalk,
+    Slice,
+)
+from .nuts import NUTS
+from .plots import RankRecord, TraceRecord, rank_figure, rank_record, trace_figure, trace_record
 from .run import run
 
 __all__ = [
     "DRIVING",
     "HMC",
     "KERNELS",
+    "LCG",
     "LFSR",
     "MALA",
+    "NUTS",
+    "Antithetic",
     "Chains",
+    "DelayedRejection",
+    "Diagnostics",
     "Driving",
     "Gibbs",
+    "HerdedGibbs",
     "Independence",
     "IndependentNumbers",
     "Info",
     "Kernel",
     "MetropolisHastings",
+    "MultipleTry",
+    "ParallelTempering",
+    "Permuted",
     "Proposal",
     "RandomWalk",
+    "RankRecord",
+    "Slice",
     "State",
+    "Stratified",
+    "TraceRecord",
     "WarmUp",
+    "rank_figure",
+    "rank_record",
     "run",
+    "trace_figure",
+    "trace_record",
 ]

@@ -11,6 +11,7 @@ import numpy as np
 from evenlight.estimate import Estimate, from_moments
 from evenlight.moments import Moments
 
+from .diagnostics import Diagnostics, diagnose
 from .driving import Driving
 from .kernel import Array
 
@@ -99,12 +100,72 @@ class Chains:
             diagnostics={"replicates": groups, "points": (f"chains of seed {self.seed}",)},
         )
 
+    def diagnostics(self, functional: Callable[[Any], Any] | None = None) -> Diagnostics:
+        """Whether the chains agree, and what their draws are worth, by ArviZ.
+
+        Effective sample sizes and Monte Carlo errors presume chains and steps that are independent, but for what a
+        kernel remembers: they are NaN for runs that a driving sequence has driven; `estimate` has errors there.
+
+        Parameters
+        ----------
+        functional : callable, optional
+            From positions (m, d) to values (m,) or (m, k); the positions themselves by default.
+
+        Returns
+        -------
+        Diagnostics
+            For each of the d dimensions, or k values.
+
+        Raises
+        ------
+        ValueError
+            If the draws were not kept, or a value is not finite.
+        """
+        values = self._values(functional or (lambda x: x))
+        independent = self.points.independent_steps and self.points.coupled == 1
+        return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent)
+
+    def to_arviz(self) -> Any:
+        """Convert to what ArviZ plots and summarizes: a group `posterior` with `x`, a group `sample_stats`.
+
+        Returns
+        -------
+        xarray.DataTree
+            ArviZ's InferenceData, from its version 1 on.
+
+        Raises
+        ------
+        ImportError
+            If arviz-base is not installed.
+        ValueError
+            If the draws were not kept.
+        """
+        try:
+            import arviz_base
+        except ImportError:
+            raise ImportError("to_arviz needs arviz-base: pip install 'evenlight[arviz]'") from None
+        names = {"acceptance": "acceptance_rate", "gradients": "n_steps"}
+        told = {names.get(name, name): column for name, column in self.info.items()}
+        tree = arviz_base.from_dict({"posterior": {"x": self.kept_draws()}, "sample_stats": told})
+        tree.attrs.update(kernel=self.kernel.name, driven_by=repr(self.points), seed=str(self.seed))
+        return tree
+
+    def kept_draws(self) -> Array:
+        """The draws, or a ValueError if they were not kept."""
+        if self.draws is None:
+            raise ValueError("this run kept no draws: name its functionals, or run with keep_draws=True")
+        return self.draws
+
     def _chain_means(self, functional: str | Callable[[Any], Any]) -> Array:
         if isinstance(functional, str):
             if functional not in self.means:
                 raise ValueError(f"no functional {functional!r} in this run; known: {', '.join(self.means) or 'none'}")
             return self.means[functional]
-        draws = self._kept()
+        return np.asarray(self._values(functional).mean(axis=1))
+
+    def _values(self, functional: Callable[[Any], Any]) -> Array:
+        """Values at all draws, shape (chains, n, ...)."""
+        draws = self.kept_draws()
         rows = draws.reshape(-1, draws.shape[2])
         values = np.asarray(functional(rows), np.float64)
         if values.shape[:1] != (len(rows),):
@@ -112,9 +173,4 @@ class Chains:
         if not np.isfinite(values).all():
             row = int(np.argmin(np.isfinite(values).reshape(len(rows), -1).all(axis=1)))
             raise ValueError(f"the function is {values[row].tolist()} at {rows[row].tolist()}")
-        return np.asarray(values.reshape(*draws.shape[:2], *values.shape[1:]).mean(axis=1))
-
-    def _kept(self) -> Array:
-        if self.draws is None:
-            raise ValueError("this run kept no draws: name its functionals, or run with keep_draws=True")
-        return self.draws
+        return np.asarray(values.reshape(*draws.shape[:2], *values.shape[1:]))

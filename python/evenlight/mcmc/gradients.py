@@ -9,13 +9,15 @@ import numpy as np
 
 from .kernel import Array, LogDensity
 
-__all__ = ["GRADIENTS", "Gradient", "gradient_of"]
+__all__ = ["GRADIENTS", "Gradient", "with_gradient"]
 
 Gradient: TypeAlias = Callable[[Any], Any] | str
 """A function from positions (m, d) to gradients (m, d), or a name in `GRADIENTS`."""
 
+Function: TypeAlias = Callable[[Array], Array]
 
-def finite_differences(log_density: LogDensity) -> Callable[[Array], Array]:
+
+def finite_differences(log_density: LogDensity) -> tuple[LogDensity, Function]:
     """Central differences: 2 d values for each gradient, about 10 correct digits."""
 
     def gradient(x: Array) -> Array:
@@ -26,31 +28,38 @@ def finite_differences(log_density: LogDensity) -> Callable[[Array], Array]:
         values = np.asarray(log_density(ends), np.float64).reshape(2, m, d)
         return np.asarray((values[0] - values[1]) / (2 * step))
 
-    return gradient
+    return log_density, gradient
 
 
-def jax(log_density: LogDensity) -> Callable[[Array], Array]:
-    """Automatic differentiation of a log density written in `jax.numpy`, compiled, in double precision."""
+def jax(log_density: LogDensity) -> tuple[LogDensity, Function]:
+    """Of a log density written in `jax.numpy`: both compiled, in double precision."""
     try:
         import jax as library
     except ImportError:
         raise ImportError("gradient='jax' needs JAX: pip install jax") from None
 
-    compiled = library.jit(library.grad(lambda x: log_density(x).sum()))
+    def in_double(function: Callable[[Any], Any]) -> Function:
+        compiled = library.jit(function)
 
-    def gradient(x: Array) -> Array:
-        with library.enable_x64(True):
-            return np.asarray(compiled(x), np.float64)
+        def call(x: Array) -> Array:
+            with library.enable_x64(True):
+                return np.asarray(compiled(x), np.float64)
 
-    return gradient
+        return call
+
+    return in_double(log_density), in_double(library.grad(lambda x: log_density(x).sum()))
 
 
-def torch(log_density: LogDensity) -> Callable[[Array], Array]:
-    """Automatic differentiation of a log density written in PyTorch, in double precision."""
+def torch(log_density: LogDensity) -> tuple[LogDensity, Function]:
+    """Of a log density written in PyTorch: tensors of double precision in and out."""
     try:
         import torch as library
     except ImportError:
         raise ImportError("gradient='torch' needs PyTorch: pip install torch") from None
+
+    def values(x: Array) -> Array:
+        with library.no_grad():
+            return np.asarray(log_density(library.tensor(x, dtype=library.float64)).numpy(), np.float64)
 
     def gradient(x: Array) -> Array:
         with library.enable_grad():
@@ -58,19 +67,19 @@ def torch(log_density: LogDensity) -> Callable[[Array], Array]:
             (found,) = library.autograd.grad(log_density(leaf).sum(), leaf)
         return np.asarray(found.numpy(), np.float64)
 
-    return gradient
+    return values, gradient
 
 
-GRADIENTS: dict[str, Callable[[LogDensity], Callable[[Array], Array]]] = {
+GRADIENTS: dict[str, Callable[[LogDensity], tuple[LogDensity, Function]]] = {
     "finite-differences": finite_differences,
     "jax": jax,
     "torch": torch,
 }
-"""Ways to get a gradient from a log density."""
+"""Ways to get a gradient from a log density: both as functions of NumPy's arrays."""
 
 
-def gradient_of(log_density: LogDensity, gradient: Gradient) -> Callable[[Array], Array]:
-    """The gradient as a checked function of blocks.
+def with_gradient(log_density: LogDensity, gradient: Gradient) -> tuple[LogDensity, Function]:
+    """A log density and its gradient as functions of NumPy's arrays, the gradient's shape checked.
 
     Parameters
     ----------
@@ -81,8 +90,8 @@ def gradient_of(log_density: LogDensity, gradient: Gradient) -> Callable[[Array]
 
     Returns
     -------
-    callable
-        From positions (m, d) to gradients (m, d).
+    tuple of callable
+        From positions (m, d) to values (m,) and to gradients (m, d).
 
     Raises
     ------
@@ -94,9 +103,9 @@ def gradient_of(log_density: LogDensity, gradient: Gradient) -> Callable[[Array]
     if isinstance(gradient, str):
         if gradient not in GRADIENTS:
             raise ValueError(f"unknown gradient {gradient!r}; known: {', '.join(GRADIENTS)}, or a function")
-        found = GRADIENTS[gradient](log_density)
+        values, found = GRADIENTS[gradient](log_density)
     elif callable(gradient):
-        found = gradient
+        values, found = log_density, gradient
     else:
         raise TypeError(
             f"gradient must be a function or one of {', '.join(GRADIENTS)}, not {type(gradient).__name__}; "
@@ -104,9 +113,9 @@ def gradient_of(log_density: LogDensity, gradient: Gradient) -> Callable[[Array]
         )
 
     def checked(x: Array) -> Array:
-        values = np.asarray(found(x), np.float64)
-        if values.shape != x.shape:
-            raise ValueError(f"the gradient must return the shape {x.shape}, not {values.shape}")
-        return values
+        slopes = np.asarray(found(x), np.float64)
+        if slopes.shape != x.shape:
+            raise ValueError(f"the gradient must return the shape {x.shape}, not {slopes.shape}")
+        return slopes
 
-    return checked
+    return values, checked

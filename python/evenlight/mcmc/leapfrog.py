@@ -85,12 +85,17 @@ def leapfrog(
 def tuned(kernel: Any, warm_up: WarmUp, target: float, first_step: float) -> Any:
     """The kernel with a step size nearer to the target acceptance, at times with the covariance so far.
 
-    Windows 4, 8, 16, ... up to three quarters of the warm-up renew the covariance; each time, the step size begins anew
-    with large changes, from the one that suits a standard normal (the expanding windows of Stan).
+    Windows 4, 8, 16, ... and the one after three quarters of the warm-up renew the covariance; each time, the step size
+    begins anew with large changes, from the one that suits a standard normal (the expanding windows of Stan).
     """
-    since = warm_up.window if warm_up.window < 4 else warm_up.window - 2 ** int(np.log2(warm_up.window)) + 1
-    renewing = warm_up.window >= 4 and warm_up.window & (warm_up.window - 1) == 0
-    if renewing and 4 * warm_up.window <= 3 * warm_up.windows:
+    renewals = _renewals(warm_up.windows)
+    if warm_up.window in renewals:
         return replace(kernel, step_size=first_step, covariance=warm_up.covariance())
+    since = warm_up.window - max((window for window in renewals if window < warm_up.window), default=0)
     change = 3.0 * float(since) ** -0.6 * (warm_up.acceptance - target)
     return replace(kernel, step_size=kernel.step_size * float(np.exp(change)))
+
+
+def _renewals(windows: int) -> list[int]:
+    last = 3 * windows // 4
+    return [2**k for k in range(2, 64) if 2 ** (k + 1) <= last] + ([last] if last >= 4 else [])

@@ -3,16 +3,19 @@
 A model is a `LevelSampler`: from a block of uniform numbers to the fine and the coarse value of the same simulation.
 """
 
+from . import models
 from .brownian import CONSTRUCTIONS, brownian_increments
 from .debias import DEBIASING, debias
 from .decay import Rates
 from .functions import FunctionSampler
 from .level import LevelRow
 from .level_distribution import LevelDistribution
+from .level_figure import level_figure
 from .level_sampler import Coupled, Ladder, LevelSampler, MultiIndexSampler
 from .level_table import MultilevelWarning, level_table
 from .mlmc import mlmc
 from .mlqmc import mlqmc
+from .multi_index import multi_index
 
 __all__ = [
     "CONSTRUCTIONS",
@@ -28,7 +31,10 @@ __all__ = [
     "Rates",
     "brownian_increments",
     "debias",
+    "level_figure",
     "level_table",
     "mlmc",
     "mlqmc",
+    "models",
+    "multi_index",
 ]

@@ -19,10 +19,12 @@ __all__ = ["CONSTRUCTIONS", "brownian_increments", "normals"]
 
 Array = NDArray[np.float64]
 
+_GAUSSIAN = Gaussian()
+
 
 def normals(u: Array) -> Array:
     """Standard normal numbers of uniform ones in [0, 1), of the same shape, by the inverse of the distribution."""
-    return np.asarray(Gaussian().map(u[..., np.newaxis]))[..., 0]
+    return np.asarray(_GAUSSIAN.map(u[..., np.newaxis]))[..., 0]
 
 
 def brownian_increments(u: Any, *, horizon: float = 1.0, construction: str = "incremental", factors: int = 1) -> Array:

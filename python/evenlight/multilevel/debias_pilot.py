@@ -44,7 +44,7 @@ def choose_distribution(
     levels = [Level(sampler, level, seed) for level in range(_LEVELS if last is None else min(_LEVELS, last + 1))]
     for level in levels:
         level.extend(_SAMPLES)
-    rows = [level.row(None) for level in levels]
+    rows = [level.row for level in levels]
     if np.ndim(rows[0].mean):
         raise ValueError(f"sampler {sampler.name!r} gives several quantities; debias takes one at a time")
     rates = measure_rates([row._replace(variance=row.variance + row.mean**2) for row in rows], None, beta)

@@ -11,13 +11,15 @@ from numpy.typing import NDArray
 
 from evenlight.multilevel.level import LevelRow
 
-__all__ = ["LEAST", "Rates", "given_rate", "measure_rates", "remaining_bias"]
+__all__ = ["LEAST", "MISFIT", "Rates", "given_rate", "measure_rates", "relative_errors", "remaining_bias"]
 
 Array = NDArray[np.float64]
 
 LEAST = 0.5
 """The least α and β that a regression may find (Giles 2015, section 3.4)."""
-_MISFIT = 0.25  # of log2: how far levels stray from a power, besides their statistical error
+MISFIT = 0.25
+"""Of log2: how far levels stray from a power, besides their statistical error."""
+_PRIOR = 4.0  # the inverse variance of what is known of alpha before anything is measured
 
 
 class Rates(NamedTuple):
@@ -47,27 +49,48 @@ def measure_rates(rows: Sequence[LevelRow], alpha: float | None, beta: float | N
     """
     used = [row for row in rows if row.level >= 1]
     levels = np.array([row.level for row in used], np.float64)
-    n = np.array([row.n for row in used], np.float64)[:, np.newaxis]
-    means, variances, kurtoses = (
-        np.array([np.atleast_1d(getattr(row, name)) for row in used], np.float64)
-        for name in ("mean", "variance", "kurtosis")
-    )
-    spread = np.where(np.isfinite(kurtoses), np.maximum(kurtoses - 1.0, 2.0), 2.0 * np.ones_like(variances))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean_errors = np.sqrt(variances / n) / np.abs(means)
+    means, variances = (np.array([np.atleast_1d(getattr(row, name)) for row in used]) for name in ("mean", "variance"))
     costs = np.array([[row.cost] for row in used])
-    return Rates(
-        alpha=max(LEAST, -_slope(levels, np.abs(means), mean_errors)) if alpha is None else alpha,
-        beta=max(LEAST, -_slope(levels, variances, np.sqrt(spread / n))) if beta is None else beta,
-        gamma=_slope(levels, costs, np.zeros_like(costs)),
+    if alpha is None:
+        alpha = max(LEAST, -_slope(levels, np.abs(means), relative_errors(used, "mean")))
+    if beta is None:
+        beta = max(LEAST, -_slope(levels, variances, relative_errors(used, "variance")))
+    return Rates(alpha, beta, gamma=_slope(levels, costs, np.zeros_like(costs)))
+
+
+def remaining_bias(rows: Sequence[LevelRow], alpha: float | None) -> Array:
+    """A bound on the sum of all means beyond the last level, from those of the last three (Giles 2015, section 3.4).
+
+    A measured alpha is drawn towards 1, the weak order of most schemes, by what one more level would say: noise, and
+    first levels that fall faster than later ones, count less. Where means of both signs are sure, they do not fall
+    yet, and the largest of them counts as if it were the last.
+    """
+    used = [row for row in rows if row.level >= 1]
+    means = np.array([np.atleast_1d(row.mean) for row in used])
+    errors = relative_errors(used, "mean")
+    if alpha is None:
+        levels = np.array([row.level for row in used], np.float64)
+        alpha = max(LEAST, -_slope(levels, np.abs(means), errors, cautious=True))
+    sure = np.where(errors < 0.5, np.sign(means), 0.0)[-3:]
+    turns = (sure.min(axis=0) < 0) & (sure.max(axis=0) > 0)
+    distance = rows[-1].level - np.array([[row.level] for row in used[-3:]])
+    last = np.abs(means[-3:]) * np.where(turns, 1.0, 2.0 ** (-alpha * distance))
+    return np.asarray(last.max(axis=0) / (2.0**alpha - 1.0)).reshape(np.shape(rows[0].mean))
+
+
+def relative_errors(rows: Sequence[LevelRow], name: str) -> Array:
+    """Standard errors of the mean or the variance of each level over their values, shape (levels, quantities)."""
+    n = np.array([[row.n] for row in rows], np.float64)
+    means, variances, kurtoses = (
+        np.array([np.atleast_1d(getattr(row, part)) for row in rows], np.float64)
+        for part in ("mean", "variance", "kurtosis")
     )
-
-
-def remaining_bias(rows: Sequence[LevelRow], alpha: float) -> Array:
-    """A bound on the sum of all means beyond the last level, from those of the last three (Giles 2015, section 3.4)."""
-    last = [row for row in rows if row.level >= 1][-3:]
-    means = [np.abs(row.mean) * 2.0 ** (-alpha * (rows[-1].level - row.level)) for row in last]
-    return np.asarray(np.max(means, axis=0) / (2.0**alpha - 1.0))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        if name == "mean":
+            return np.asarray(np.sqrt(variances / n) / np.abs(means))
+        spread = np.where(np.isfinite(kurtoses), np.maximum(kurtoses - 1.0, 2.0), 2.0)
+        spread = np.maximum.accumulate(spread, axis=0)  # tails do not become lighter; few samples only do not show them
+        return np.asarray(np.sqrt(spread / n) * np.ones_like(variances))
 
 
 def given_rate(name: str, rate: float | None) -> float | None:
@@ -77,17 +100,19 @@ def given_rate(name: str, rate: float | None) -> float | None:
     return rate
 
 
-def _slope(levels: Array, values: Array, relative_errors: Array) -> float:
-    """The largest slope of log2 of a column of values in the level; 0 from fewer than two levels."""
-    slopes = [_one_slope(levels, *pair) for pair in zip(values.T, relative_errors.T, strict=True)]
+def _slope(levels: Array, values: Array, relative_errors: Array, cautious: bool = False) -> float:
+    """The largest slope of log2 of a column of values in the level; 0 from one level."""
+    slopes = [_one_slope(levels, *pair, cautious) for pair in zip(values.T, relative_errors.T, strict=True)]
     return max(slopes, default=0.0)
 
 
-def _one_slope(levels: Array, values: Array, relative_errors: Array) -> float:
+def _one_slope(levels: Array, values: Array, relative_errors: Array, cautious: bool) -> float:
     known = (values > 0) & np.isfinite(values)
     if known.sum() < 2:
         return 0.0
     x, y = levels[known], np.log2(values[known])
-    weights = 1.0 / ((relative_errors[known] / math.log(2)) ** 2 + _MISFIT**2)
+    weights = 1.0 / ((relative_errors[known] / math.log(2)) ** 2 + MISFIT**2)
     x = x - (weights @ x) / weights.sum()
-    return float((weights * x) @ y / ((weights * x) @ x))
+    information = float((weights * x) @ x)
+    slope = float((weights * x) @ y) / information
+    return (slope * information - _PRIOR) / (information + _PRIOR) if cautious else slope

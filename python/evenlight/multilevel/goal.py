@@ -21,7 +21,8 @@ class Goal:
     """A tolerance and limits."""
 
     rmse: float
-    max_level: int
+    max_level: Any
+    """A number, or a pair of numbers."""
     max_cost: float
     exact: bool
     """Whether nothing is beyond `max_level`."""
@@ -30,14 +31,7 @@ class Goal:
     def of(
         cls, sampler: Any, rmse: float, max_level: SupportsIndex | None, max_cost: float, alpha: float | None
     ) -> Goal:
-        """Check the arguments of a run."""
-        for name in ("dims", "sample", "cost"):
-            if not callable(getattr(sampler, name, None)):
-                raise TypeError(f"sampler must be a LevelSampler; {type(sampler).__name__} has no method {name!r}")
-        if not 0.0 < rmse < math.inf:
-            raise ValueError(f"rmse must be above 0, not {rmse}")
-        if not max_cost > 0.0:
-            raise ValueError(f"max_cost must be above 0, not {max_cost}")
+        """Check the arguments of a run over levels."""
         finest = getattr(sampler, "max_level", None)
         last = _DEEPEST if finest is None else finest
         if max_level is not None:
@@ -46,14 +40,26 @@ class Goal:
         needed = 2 if alpha is None else 1
         if last < needed and not exact:
             raise ValueError(f"max_level = {last} is too coarse to know the bias; levels 0 to {needed} are needed")
-        return cls(float(rmse), int(last), float(max_cost), exact)
+        return cls.plain(sampler, rmse, int(last), max_cost, exact)
+
+    @classmethod
+    def plain(cls, sampler: Any, rmse: float, max_level: Any, max_cost: float, exact: bool) -> Goal:
+        """Check what does not depend on how levels are numbered."""
+        for name in ("dims", "sample", "cost"):
+            if not callable(getattr(sampler, name, None)):
+                raise TypeError(f"sampler must be a LevelSampler; {type(sampler).__name__} has no method {name!r}")
+        if not 0.0 < rmse < math.inf:
+            raise ValueError(f"rmse must be above 0, not {rmse}")
+        if not max_cost > 0.0:
+            raise ValueError(f"max_cost must be above 0, not {max_cost}")
+        return cls(float(rmse), max_level, float(max_cost), exact)
 
     def fits(self, rmse: float, bias: Any) -> bool:
-        """Whether the bias leaves some of the tolerance to the noise."""
-        return bool(np.all(np.asarray(bias) ** 2 <= 0.8 * _SHARE * rmse**2))
+        """Whether the squared bias is at most half of what is to be spent of the squared tolerance."""
+        return bool(np.all(np.asarray(bias) ** 2 <= 0.5 * _SHARE * rmse**2))
 
     def variance(self, rmse: float, bias: Any) -> Any:
-        """What the variance of the estimate may be: what the bias leaves, at least half: the bias may yet shrink."""
+        """What the variance of the estimate may be: what the bias leaves, at least half: the bias will yet shrink."""
         return np.maximum(_SHARE * rmse**2 - np.asarray(bias) ** 2, 0.5 * _SHARE * rmse**2)
 
     @property

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenlight.integrand import rows_per_block
 from evenlight.multilevel.level_sampler import draw
 from evenlight.points import Engine, Independent
 
-__all__ = ["Level", "LevelRow", "level_points", "plain"]
+__all__ = ["Level", "LevelRow", "compared", "level_points", "plain"]
 
 Array = NDArray[np.float64]
 
+_BLOCK = 2**16  # numbers drawn at once: they and what is made of them stay in a cache
 _ROUNDING = 1e-12  # of the mean: differences below it are none
 
 
@@ -48,14 +50,16 @@ class LevelRow(NamedTuple):
     fine_variance: Any = math.nan
     """Of the fine value of one sample, or as `variance`."""
 
-    def compared(self, below: LevelRow) -> LevelRow:
+    def compared(self, *below: LevelRow, signs: tuple[int, ...] = (1,)) -> LevelRow:
         """The row with its consistency: |a - b + c| / (3 (√V_a + √V_b + √V_c)), section 3.3 of Giles (2015).
 
-        a and b are the means of fine values of the level below and of this one, c is that of the difference.
+        a is the signed sum of the means of fine values of the levels below, b that of this one, c is the mean of the
+        difference.
         """
-        gap = np.abs(below.fine_mean - self.fine_mean + self.mean)
-        variances = (below.fine_variance / below.n, self.fine_variance / self.n, self.variance / self.n)
-        spread = sum(np.sqrt(variance) for variance in variances)
+        expected = sum(sign * np.asarray(row.fine_mean) for sign, row in zip(signs, below, strict=True))
+        gap = np.abs(expected - self.fine_mean + self.mean)
+        variances = [row.fine_variance / row.n for row in (*below, self)]
+        spread = sum(np.sqrt(variance) for variance in [*variances, self.variance / self.n])
         with np.errstate(invalid="ignore", divide="ignore"):
             ratio = np.where(gap > _ROUNDING * np.abs(self.fine_mean), gap / (3 * spread), 0.0)
         return self._replace(consistency=float(ratio) if ratio.ndim == 0 else ratio)
@@ -83,85 +87,64 @@ class Level:
         self._points = level_points(None, sampler.dims(level), level, seed)
         self.n = 0
         self.cost = 0.0
+        self._row: LevelRow | None = None
 
     def extend(self, n: int) -> None:
         """Draw samples until there are n."""
-        block = rows_per_block(int(self._points.d) * 4)
+        block = max(1, _BLOCK // int(self._points.d))
         while self.n < n:
             self._add(self.n, min(n, self.n + block))
 
+    @property
+    def row(self) -> LevelRow:
+        """The level as a line of a table, without its consistency."""
+        if self._row is None:
+            self._row = self._judged()
+        return self._row
+
     def _add(self, start: int, stop: int) -> None:
         coupled = draw(self._sampler, self.level, self._points.points(start, stop))
-        difference, fine = coupled.difference, coupled.fine
+        step, fine = coupled.difference, coupled.fine
         if start == 0:
-            self._center = difference.mean(axis=0)
+            self._center = step.mean(axis=0)
             self._fine_center = fine.mean(axis=0)
-            self._powers = np.zeros((4, *difference.shape[1:]))
-            self._fine_powers = np.zeros((2, *difference.shape[1:]))
-        step, fine_step = difference - self._center, fine - self._fine_center
+            self._powers = np.zeros((4, *step.shape[1:]))
+            self._fine_powers = np.zeros((2, *step.shape[1:]))
+        step -= self._center
         square = step * step
-        self._powers += [_sum(step), _dot(step, step), _dot(square, step), _dot(square, square)]
-        self._fine_powers += [_sum(fine_step), _dot(fine_step, fine_step)]
+        self._powers += [step.sum(axis=0), square.sum(axis=0), _dot(square, step), _dot(square, square)]
+        np.subtract(fine, self._fine_center, out=step)
+        self._fine_powers += [step.sum(axis=0), _dot(step, step)]
         self.n = stop
         self.cost += coupled.cost
+        self._row = None
 
-    @property
-    def mean(self) -> Array:
-        """Of the difference."""
-        return np.asarray(self._center + self._powers[0] / self.n)
-
-    @property
-    def variance(self) -> Array:
-        """Of the difference of one sample."""
-        first, second = self._powers[:2]
-        return np.asarray(np.maximum(second - first * first / self.n, 0.0) / max(self.n - 1, 1))
-
-    @property
-    def kurtosis(self) -> Array:
-        """Of the difference; NaN where nothing varies."""
+    def _judged(self) -> LevelRow:
         m1, m2, m3, m4 = self._powers / self.n
+        f1, f2 = self._fine_powers / self.n
         central = m4 - 4 * m1 * m3 + 6 * m1**2 * m2 - 3 * m1**4
+        unbiased = self.n / max(self.n - 1, 1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            return np.asarray(central / (m2 - m1**2) ** 2)
+            return LevelRow(
+                self.level,
+                self.n,
+                plain(self._center + m1),
+                plain(np.maximum(m2 - m1**2, 0.0) * unbiased),
+                self.cost / self.n,
+                plain(central / (m2 - m1**2) ** 2),
+                fine_mean=plain(self._fine_center + f1),
+                fine_variance=plain(np.maximum(f2 - f1**2, 0.0) * unbiased),
+            )
 
-    @property
-    def fine_mean(self) -> Array:
-        """Of the fine value."""
-        return np.asarray(self._fine_center + self._fine_powers[0] / self.n)
 
-    @property
-    def fine_variance(self) -> Array:
-        """Of the fine value of one sample."""
-        first, second = self._fine_powers
-        return np.asarray(np.maximum(second - first * first / self.n, 0.0) / max(self.n - 1, 1))
-
-    @property
-    def cost_per_sample(self) -> float:
-        """As measured."""
-        return self.cost / self.n
-
-    def row(self, below: Level | None) -> LevelRow:
-        """The level as a line of a table; `below` is the next coarser one."""
-        row = LevelRow(
-            self.level,
-            self.n,
-            plain(self.mean),
-            plain(self.variance),
-            self.cost_per_sample,
-            plain(self.kurtosis),
-            fine_mean=plain(self.fine_mean),
-            fine_variance=plain(self.fine_variance),
-        )
-        return row if below is None else row.compared(below.row(None))
+def compared(rows: Sequence[LevelRow]) -> list[LevelRow]:
+    """Rows of levels 0, 1, …, each compared with the one below."""
+    return [rows[0], *(row.compared(below) for below, row in pairwise(rows))]
 
 
 def plain(number: Any) -> Any:
     """A float for a number, an array for an array."""
     return float(number) if np.ndim(number) == 0 else np.asarray(number)
-
-
-def _sum(x: Array) -> Any:
-    return x.sum(axis=0)
 
 
 def _dot(x: Array, y: Array) -> Any:

@@ -28,7 +28,7 @@ class MultilevelWarning(UserWarning):
     """
 
 
-def sum_of_levels(rows: Sequence[LevelRow], rates: Rates, bias: Any, **rest: Any) -> Estimate:
+def sum_of_levels(rows: Sequence[LevelRow], rates: Rates | tuple[Rates, Rates], bias: Any, **rest: Any) -> Estimate:
     """The estimate whose value is the sum of the levels' means; `rest` are other attributes of `Estimate`."""
     variances = [np.asarray(row.variance) / row.n for row in rows]
     variance = sum(variances)

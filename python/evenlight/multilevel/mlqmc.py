@@ -12,7 +12,7 @@ from evenlight.arguments import SeedLike, integer, seed_number
 from evenlight.estimate import Estimate
 from evenlight.multilevel.decay import Rates, given_rate, measure_rates, remaining_bias
 from evenlight.multilevel.goal import Goal
-from evenlight.multilevel.level import LevelRow
+from evenlight.multilevel.level import LevelRow, compared
 from evenlight.multilevel.level_table import sum_of_levels, warn
 from evenlight.multilevel.replicated_level import ReplicatedLevel
 from evenlight.points import Engine, Sobol
@@ -21,7 +21,7 @@ __all__ = ["mlqmc"]
 
 Array = NDArray[np.float64]
 
-_PILOT = 8  # points of each replicate on the first levels
+_PILOT = (8, 4, 2, 1)  # points of each replicate on the first levels
 
 
 def mlqmc(
@@ -127,14 +127,14 @@ class _Run:
         self._sampler, self._points, self._goal, self._alpha = sampler, points, goal, alpha
         self._seed, self._replicates = random
         self._levels: list[ReplicatedLevel] = []
-        for _ in range(min(3, goal.max_level + 1)):
-            self._add_level(_PILOT)
+        for n in _PILOT[: goal.max_level + 1]:
+            self._add_level(n)
 
     def reach(self) -> str:
         """Double points and add levels until the tolerance is met; say what was in the way, if anything."""
         goal = self._goal
         while True:
-            bias = self._bias(self._rates())
+            bias = self._bias()
             budget = goal.variance(goal.rmse, bias)
             if np.any(sum(level.variance for level in self._levels) > budget):
                 if not self._double(budget):
@@ -151,9 +151,9 @@ class _Run:
     def estimate(self, obstacle: str) -> Estimate:
         rates = self._rates()
         return sum_of_levels(
-            self._rows(),
+            compared(self._rows()),
             rates,
-            self._bias(rates),
+            self._bias(),
             replicates=self._replicates,
             cost=self._cost(),
             method="mlqmc",
@@ -164,8 +164,7 @@ class _Run:
         )
 
     def _rows(self) -> list[LevelRow]:
-        below = [None, *self._levels[:-1]]
-        return [level.row(coarser) for level, coarser in zip(self._levels, below, strict=True)]
+        return [level.row for level in self._levels]
 
     def _cost(self) -> float:
         return sum(level.cost for level in self._levels)
@@ -173,10 +172,10 @@ class _Run:
     def _rates(self) -> Rates:
         return measure_rates(self._rows(), self._alpha, None)
 
-    def _bias(self, rates: Rates) -> Any:
+    def _bias(self) -> Any:
         if self._goal.exact and len(self._levels) == self._goal.max_level + 1:
-            return np.zeros_like(self._levels[0].mean)
-        return remaining_bias(self._rows(), rates.alpha)
+            return np.zeros_like(self._levels[0].row.mean)
+        return remaining_bias(self._rows(), self._alpha)
 
     def _double(self, budget: Any) -> bool:
         """Double the points where most variance goes for the cost, unless that costs too much."""

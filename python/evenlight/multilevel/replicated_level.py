@@ -45,28 +45,21 @@ class ReplicatedLevel:
         self._means = means if start == 0 else self._means + (means - self._means) * ((stop - start) / stop)
         self.n = stop
         self.cost += coupled.cost
+        self._judge()
 
-    @property
-    def mean(self) -> Array:
-        """Of the difference."""
-        return np.asarray(self._means[0].mean(axis=0))
-
-    @property
-    def variance(self) -> Array:
-        """Of the mean of the difference, from the spread of the randomizations."""
-        return np.asarray(self._means[0].var(axis=0, ddof=1) / self._replicates)
-
-    def row(self, below: ReplicatedLevel | None) -> LevelRow:
-        """The level as a line of a table; `below` is the next coarser one."""
+    def _judge(self) -> None:
+        mean, fine_mean = self._means.mean(axis=1)
+        variance, fine_variance = self._means.var(axis=1, ddof=1) / self._replicates
         n = self.n * self._replicates
-        fine = self._means[1]
-        row = LevelRow(
+        self.variance = variance
+        """Of the mean of the difference, from the spread of the randomizations."""
+        self.row = LevelRow(
             self.level,
             n,
-            plain(self.mean),
-            plain(self.variance * n),
+            plain(mean),
+            plain(variance * n),
             self.cost / n,
-            fine_mean=plain(fine.mean(axis=0)),
-            fine_variance=plain(fine.var(axis=0, ddof=1) / self._replicates * n),
+            fine_mean=plain(fine_mean),
+            fine_variance=plain(fine_variance * n),
         )
-        return row if below is None else row.compared(below.row(None))
+        """The level as a line of a table, without its consistency."""

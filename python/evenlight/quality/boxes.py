@@ -37,20 +37,22 @@ class ExtremeDiscrepancy(NamedTuple):
     """Whether it is closed and has too many points; otherwise it is open and has too few."""
 
 
-def dispersion(x: npt.ArrayLike, *, limit: SupportsIndex = 1_000_000) -> EmptyBox:
-    """Find the largest empty box with sides along the axes in the unit cube.
+def dispersion(x: npt.ArrayLike, *, torus: bool = False, limit: SupportsIndex = 1_000_000) -> EmptyBox:
+    """Find the largest empty box with sides along the axes in the unit cube, or on the torus.
 
     Parameters
     ----------
     x : array_like, shape (n, d)
         Points in [0, 1]; those on a box's faces are not in it.
+    torus : bool
+        Whether opposite faces of the cube are the same, so that a box may go on at the other side.
     limit : int
         The most boxes to look at.
 
     Returns
     -------
     EmptyBox
-        Its volume and its corners; exact.
+        Its volume and its corners; exact. On the torus the upper corner may be beyond 1.
 
     Raises
     ------
@@ -66,8 +68,10 @@ def dispersion(x: npt.ArrayLike, *, limit: SupportsIndex = 1_000_000) -> EmptyBo
     >>> from evenlight import quality
     >>> quality.dispersion([[0.25, 0.5], [0.75, 0.5]]).volume
     0.5
+    >>> quality.dispersion([[0.25, 0.5], [0.75, 0.5]], torus=True).volume
+    1.0
     """
-    volume, lower, upper = _core.dispersion(as_rows(x), operator.index(limit))
+    volume, lower, upper = _core.dispersion(as_rows(x), bool(torus), operator.index(limit))
     return EmptyBox(volume, np.array(lower), np.array(upper))
 
 

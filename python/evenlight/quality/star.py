@@ -13,7 +13,7 @@ from .rows import as_rows
 
 __all__ = ["StarDiscrepancy", "star_discrepancy", "star_discrepancy_cost"]
 
-Method = Literal["auto", "sweep", "dem", "threshold_accepting", "bracketing"]
+Method = Literal["auto", "certain", "sweep", "dem", "threshold_accepting", "bracketing"]
 
 
 class Evidence(NamedTuple):
@@ -132,6 +132,7 @@ def star_discrepancy(
         - "bracketing": an upper bound that is guaranteed, refined until a limit is met; exact if the bounds meet.
         - "auto": "sweep" for d ≤ 2; else "dem" if that is expected to take at most `limit` steps; else
           "threshold_accepting".
+        - "certain": the same, but with "bracketing" instead: never a lower bound.
     progress : callable, optional
         Called now and then with the part that is done, from 0 to 1, by "dem" and "bracketing". An exception of it
         stops the work.
@@ -141,7 +142,7 @@ def star_discrepancy(
         Of the random walks, which also give "dem" and "bracketing" a box to beat. The same seed gives the same bits.
     **limits
         ``trials=10, steps=4096``: the walks and the steps of each. ``brackets=131072, width=0``: "bracketing" stops
-        when it has made so many, or when the bounds are so close. ``limit=1e10``: for "auto".
+        when it has made so many, or when the bounds are so close. ``limit=1e10``: for "auto" and "certain".
 
     Returns
     -------
@@ -187,8 +188,13 @@ def star_discrepancy(
         settings[name] = value if name in ("width", "limit") else operator.index(value)  # type: ignore[arg-type]
     if operator.index(workers) < 1:
         raise ValueError(f"workers must be at least 1, not {workers}")
+    rows = as_rows(x)
+    if method == "certain":
+        feasible = rows.shape[1] <= 2 or star_discrepancy_cost(rows, seed=seed) <= settings["limit"]
+        method = "auto" if feasible else "bracketing"
+        settings["limit"] = np.inf
     settings |= {"method": method, "seed": operator.index(seed), "workers": operator.index(workers)}
-    value, kind, box, attained, closed, used = _core.star_discrepancy(as_rows(x), settings, progress)
+    value, kind, box, attained, closed, used = _core.star_discrepancy(rows, settings, progress)
     return StarDiscrepancy(value, Evidence(kind, tuple(box), closed, attained, used))  # type: ignore[arg-type]
 
 

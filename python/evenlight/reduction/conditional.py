@@ -21,7 +21,7 @@ def conditional(f: Callable[[Any], Any], coordinate: int, nodes: int = 16) -> Ca
     Parameters
     ----------
     f : callable
-        From points of the unit cube, shape (m, d), to values, shape (m,).
+        From points of the unit cube, shape (m, d), to values, shape (m,) or (m, ...).
     coordinate : int
         The one to integrate, from 0 on; best the one that matters most.
     nodes : int
@@ -60,6 +60,7 @@ def conditional(f: Callable[[Any], Any], coordinate: int, nodes: int = 16) -> Ca
         if coordinate > u.shape[1]:
             raise ValueError(f"coordinate {coordinate} is none of {u.shape[1] + 1}")
         full = np.insert(np.repeat(u, nodes, axis=0), coordinate, np.tile(places, len(u)), axis=1)
-        return np.asarray(np.asarray(f(full)).reshape(len(u), nodes) @ weights * 0.5)
+        values = np.asarray(f(full))
+        return np.asarray(np.tensordot(0.5 * weights, values.reshape(len(u), nodes, *values.shape[1:]), (0, 1)))
 
     return inner

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenlight.estimate import Estimate, from_moments
+from evenlight.estimate import Estimate, from_moments, plain
 from evenlight.importance.regression import fit
 from evenlight.integrand import Integrand
 from evenlight.moments import Moments
@@ -36,7 +36,7 @@ def control_variates(
     Parameters
     ----------
     f : callable
-        From points, shape (m, d), to values, shape (m,).
+        From points, shape (m, d), to values, shape (m,) or (m, ...), each with coefficients of its own.
     controls : callable
         From points, shape (m, d), to values, shape (m, k).
     means : array_like, shape (k,)
@@ -53,7 +53,8 @@ def control_variates(
     Returns
     -------
     Estimate
-        With the coefficients `beta`, and `explained`, the share of the variance that is gone, among the diagnostics.
+        With the coefficients `beta`, shape (k, ...), and `explained`, the share of the variance that is gone, among
+        the diagnostics.
 
     Raises
     ------
@@ -83,11 +84,11 @@ def control_variates(
     y, _ = Integrand(f, domain, "raise")(u, 0, replicates)
     h, _ = Integrand(controls, domain, "raise")(u, 0, replicates)
     wanted = np.asarray(means, np.float64)
-    if y.ndim != 1 or h.ndim != 2 or wanted.shape != h.shape[1:]:
-        raise ValueError(f"f {y.shape}, controls {h.shape} and means {wanted.shape} are not (n,), (n, k) and (k,)")
-    fitted = fit(y, np.column_stack([np.ones(n), h - wanted]))
-    values = (fitted.residuals + fitted.beta[0]).reshape(replicates, rows)
-    total = float(np.var(y))
+    if h.ndim != 2 or wanted.shape != h.shape[1:]:
+        raise ValueError(f"controls {h.shape} and means {wanted.shape} are not (n, k) and (k,)")
+    fitted = fit(y.reshape(n, -1), np.column_stack([np.ones(n), h - wanted]))
+    values = (fitted.residuals + fitted.beta[0]).reshape(replicates, rows, *y.shape[1:])
+    total, left = np.var(y, axis=0), np.mean(fitted.residuals**2, axis=0).reshape(y.shape[1:])
     return from_moments(
         ((rows, Moments.of(values.mean(axis=1))),),
         method="control variates",
@@ -95,7 +96,7 @@ def control_variates(
         message="as many function values as asked",
         diagnostics={
             "points": (repr(points),),
-            "beta": fitted.beta[1:],
-            "explained": 1.0 - float(np.mean(fitted.residuals**2)) / total if total > 0 else 1.0,
+            "beta": fitted.beta[1:].reshape(-1, *y.shape[1:]),
+            "explained": plain(1.0 - left / np.where(total > 0, total, np.inf)),
         },
     )

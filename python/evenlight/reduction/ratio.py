@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from evenlight.estimate import Estimate, from_error
+from evenlight.estimate import Estimate, from_error, plain
 from evenlight.integrate import integrate
 
 __all__ = ["ratio"]
@@ -24,7 +24,7 @@ def ratio(
     Parameters
     ----------
     f, g : callable
-        From points, shape (m, d), to values, shape (m,); the integral of g is not 0.
+        From points, shape (m, d), to values, shape (m,), or for f shape (m, ...); the integral of g is not 0.
     points : evenlight.points.Engine
         With randomness to replicate; independent points are as good as any.
     n : int
@@ -42,7 +42,7 @@ def ratio(
     Raises
     ------
     ValueError
-        If the mean of g is 0.
+        If the mean of g is 0, or g has several values.
 
     Notes
     -----
@@ -56,30 +56,21 @@ def ratio(
     >>> bool(abs(estimate.value - 2 / 3) < 1e-4)
     True
     """
-    both = integrate(
-        lambda x: np.stack([np.asarray(f(x)), np.asarray(g(x))], axis=1),
-        points,
-        n=n,
-        replicates=replicates,
-        method="rqmc",
-        domain=domain,
-    )
-    means = both.diagnostics["replicates"]
-    if not both.value[1]:
-        raise ValueError("the mean of g is 0: there is no ratio")
-    whole = both.value[0] / both.value[1]
-    rest = means.sum(axis=0) - means
-    left_out = replicates * whole - (replicates - 1) * rest[:, 0] / rest[:, 1]
-    error = float(left_out.std(ddof=1) / np.sqrt(replicates))
+    settings: dict[str, Any] = {"n": n, "replicates": replicates, "method": "rqmc", "domain": domain}
+    above, below = integrate(f, points, **settings), integrate(g, points, **settings)
+    if np.ndim(below.value) or not below.value:
+        raise ValueError(f"g must be one number of mean other than 0, not of mean {below.value}: there is no ratio")
+    rest = [means.sum(axis=0) - means for means in (above.diagnostics["replicates"], below.diagnostics["replicates"])]
+    left_out = replicates * above.value / below.value - (replicates - 1) * (rest[0].T / rest[1]).T
     estimate = Estimate(
-        value=float(left_out.mean()),
-        standard_error=error,
-        n=both.n,
+        value=plain(left_out.mean(axis=0)),
+        standard_error=plain(left_out.std(axis=0, ddof=1) / np.sqrt(replicates)),
+        n=above.n,
         replicates=replicates,
-        cost=2 * both.cost,
+        cost=above.cost + below.cost,
         method="ratio",
-        message=both.message,
-        diagnostics={"points": both.diagnostics["points"]},
+        message=above.message,
+        diagnostics={"points": above.diagnostics["points"]},
         degrees_of_freedom=replicates - 1.0,
     )
     return from_error(estimate)

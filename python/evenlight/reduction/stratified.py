@@ -7,8 +7,9 @@ from typing import Any, Literal, NamedTuple, SupportsIndex
 
 import numpy as np
 
-from evenlight.estimate import Estimate, from_error
+from evenlight.estimate import Estimate, from_error, plain
 from evenlight.importance.mixture import counts
+from evenlight.importance.strata import Strata
 from evenlight.integrand import Integrand
 from evenlight.points import Independent
 
@@ -38,14 +39,15 @@ def stratified(
     Parameters
     ----------
     f : callable
-        From points, shape (m, k), to values, shape (m,).
+        From points, shape (m, d), to values, shape (m,) or (m, ...).
     strata : sequence of Stratum
         At least one.
     n : int
         Function values in all, at least 4 per stratum.
     allocation : {"neyman", "proportional"}
         "neyman": points in proportion to weight times standard deviation, which a pilot sample estimates; the least
-        variance there is. "proportional": to weight; never worse than no strata.
+        variance there is, or for several values the least sum of variances, each over its squared mean of |f|.
+        "proportional": to weight; never worse than no strata.
     pilot : float
         The pilot's share of n, for "neyman"; it does not count in the estimate, which so has no bias.
     seed : int
@@ -85,19 +87,18 @@ def stratified(
     shares, spent = weights, 0
     if allocation == "neyman":
         first = _spread(counts(weights, max(2 * len(strata), round(pilot * n))))
-        spreads = [values.std(ddof=1) for values in _sample(integrand, strata, first, seed, 0)]
-        shares = weights * np.array(spreads)
+        shares = weights * _spreads(_sample(integrand, strata, first, seed, 0), weights)
         spent = int(first.sum())
         if not shares.any():
             shares = weights
     numbers = _spread(counts(shares, n - spent))
-    parts = _sample(integrand, strata, numbers, seed, 1)
-    variances = np.array([w**2 * y.var(ddof=1) / len(y) for w, y in zip(weights, parts, strict=True)])
-    total = float(variances.sum())
-    degrees = total**2 / float((variances**2 / (numbers - 1)).sum()) if total > 0 else float(n - len(strata))
+    y = np.concatenate(_sample(integrand, strata, numbers, seed, 1))
+    shape = y.shape[1:]
+    parts = Strata.of(y.reshape(len(y), -1), np.repeat(np.arange(len(strata)), numbers), len(strata))
+    error, degrees = parts.error(weights)
     estimate = Estimate(
-        value=float(sum(w * y.mean() for w, y in zip(weights, parts, strict=True))),
-        standard_error=float(np.sqrt(total)),
+        value=plain((weights @ parts.means).reshape(shape)),
+        standard_error=plain(error.reshape(shape)),
         n=int(numbers.sum()),
         replicates=int(numbers.sum()),
         cost=float(spent + numbers.sum()),
@@ -107,6 +108,13 @@ def stratified(
         degrees_of_freedom=degrees,
     )
     return from_error(estimate)
+
+
+def _spreads(parts: list[Any], weights: Any) -> Any:
+    """The standard deviation in every stratum, of several values together in units of their mean sizes."""
+    deviations = np.stack([y.std(axis=0, ddof=1).ravel() for y in parts])
+    sizes = weights @ np.stack([np.abs(y).mean(axis=0).ravel() for y in parts])
+    return np.sqrt(((deviations[:, sizes > 0] / sizes[sizes > 0]) ** 2).sum(axis=1))
 
 
 def _spread(numbers: Any) -> Any:

@@ -32,6 +32,10 @@ class MonteCarlo:
         self._rows = 0
         self._moments = Moments.of(np.empty(0))
 
+    def resume(self, estimate: Estimate) -> None:
+        """Begin where the run that made an estimate ended."""
+        self._rows, self._moments = round(estimate.cost), estimate.moments()
+
     def extend(self, rows: int) -> None:
         """Evaluate all rows up to `rows`."""
         block = rows_per_block(int(self._points.d))

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, ClassVar
 
-import numpy as np
-
-from evenlight.estimate import Estimate
+from evenlight.estimate import Estimate, from_moments
 from evenlight.integrand import Integrand
+from evenlight.medians import Medians
 from evenlight.replicate_means import ReplicateMeans
 
 __all__ = ["Median"]
@@ -38,6 +36,10 @@ class Median:
         """The number of replicates."""
         return self._replicates.replicates
 
+    def resume(self, estimate: Estimate) -> None:
+        """Begin where the run that made an estimate ended."""
+        self._replicates.resume(round(estimate.cost) // self.copies, estimate.diagnostics["replicates"])
+
     def extend(self, rows: int) -> None:
         """Evaluate all rows up to `rows` of every replicate."""
         self._replicates.extend(rows)
@@ -46,17 +48,9 @@ class Median:
         """The median of the replicates, and what its standard error is if they are normal."""
         state = self._replicates
         state.check_used()
-        value = np.median(state.means, axis=0)
-        spread = 1.482602 * np.median(np.abs(state.means - value), axis=0)
-        error = math.sqrt(math.pi / 2 / (state.replicates - 1)) * spread
-        return Estimate(
-            value=float(value) if value.ndim == 0 else value,
-            standard_error=float(error) if value.ndim == 0 else error,
-            n=int(state.used.sum()),
-            replicates=state.replicates,
-            cost=float(state.rows * state.replicates),
+        return from_moments(
+            ((state.rows, Medians(state.means)),),
             method=self.name,
+            cost=float(state.rows * state.replicates),
             diagnostics={"points": (repr(state.points),), "replicates": state.means},
-            # the median absolute deviation has 0.37 times the efficiency of the standard deviation
-            degrees_of_freedom=max(1.0, 0.37 * (state.replicates - 1)),
         )

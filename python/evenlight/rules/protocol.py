@@ -26,6 +26,10 @@ class Rule(Protocol):
         """How many points a row stands for: the number of replicates, or 1."""
         ...
 
+    def resume(self, estimate: Estimate) -> None:
+        """Begin where the run that made an estimate ended."""
+        ...
+
     def extend(self, rows: int) -> None:
         """Evaluate all rows up to `rows`; those evaluated already stay."""
         ...

@@ -33,6 +33,11 @@ class QuasiMonteCarlo:
         self._used = 0
         self._mean: Any = 0.0
 
+    def resume(self, estimate: Estimate) -> None:
+        """Begin where the run that made an estimate ended."""
+        self._rows = self._used = estimate.n
+        self._mean = np.asarray(estimate.value)
+
     def extend(self, rows: int) -> None:
         """Evaluate all rows up to `rows`."""
         block = rows_per_block(int(self._points.d))

@@ -33,6 +33,10 @@ class RandomizedQuasiMonteCarlo:
         """The number of replicates."""
         return self._replicates.replicates
 
+    def resume(self, estimate: Estimate) -> None:
+        """Begin where the run that made an estimate ended."""
+        self._replicates.resume(round(estimate.cost) // self.copies, estimate.diagnostics["replicates"])
+
     def extend(self, rows: int) -> None:
         """Evaluate all rows up to `rows` of every replicate."""
         self._replicates.extend(rows)

@@ -1,28 +1,14 @@
 """What the faces of the warps check before the core works."""
 
-import operator
-from typing import Any, SupportsIndex, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from evenlight.arguments import SeedLike, seed_number, threads
-
-__all__ = ["Floats", "SeedLike", "integer", "real_array", "scramble_name", "seed_number", "threads"]
+__all__ = ["Floats", "real_array", "scramble_name"]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 """Double precision."""
-
-
-def integer(name: str, value: SupportsIndex, least: int, most: int = 2**64 - 1) -> int:
-    """Return an integer within its bounds, or say which argument is wrong and what is allowed."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
-    if not least <= number <= most:
-        raise ValueError(f"{name} must be from {least} to {most}, not {number}")
-    return number
 
 
 def scramble_name(scramble: str | bool | None) -> str:

@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from evenlight import _core
-
-from .arguments import threads
+from evenlight.arguments import threads
 
 __all__ = ["Warp"]
 

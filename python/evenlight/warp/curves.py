@@ -6,8 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from evenlight import _core
+from evenlight.arguments import WORD, SeedLike, integer, seed_number, threads
 
-from .arguments import Floats, SeedLike, integer, real_array, seed_number, threads
+from .arguments import Floats, real_array
 from .base import Warp
 
 __all__ = [
@@ -285,7 +286,7 @@ def curve_points(
            [0.75, 0.75],
            [0.75, 0.25]])
     """
-    count, first = integer("n", n, 0), integer("start", start, 0)
+    count, first = integer("n", n, 0, WORD), integer("start", start, 0, WORD)
     if source not in SOURCES:
         raise ValueError(f"unknown source {source!r}; known: {', '.join(SOURCES)}")
     if first and source in ("stratified", "centered"):
@@ -323,7 +324,8 @@ def curve_sort(
 
     Notes
     -----
-    About 180 nanoseconds per point for a million of them in three dimensions.
+    By the first 20 to 32 digits of the keys, and all 64 where these are equal. 4096 points in the plane take a fifth of
+    a millisecond.
 
     Examples
     --------
@@ -336,7 +338,8 @@ def curve_sort(
         raise ValueError(f"x must have shape (n, dims), n < 2^32 and dims from 1 to 32, not {cloud.shape}")
     if len(cloud) == 0:
         return np.empty(0, dtype=np.uint32)
-    lower, upper = cloud.min(axis=0), cloud.max(axis=0)
+    columns = np.ascontiguousarray(cloud.T)  # of which the extremes are found ten times as fast
+    lower, upper = columns.min(axis=1), columns.max(axis=1)
     if not np.isfinite([lower, upper]).all():
         raise ValueError("x must be finite")
     if bounds is not None:
@@ -344,7 +347,7 @@ def curve_sort(
         if not (lower < upper).all():
             raise ValueError("bounds must have a lower corner below the upper one")
     if cloud.shape[1] == 1:
-        return np.argsort(np.clip(cloud[:, 0], lower, upper), kind="stable").astype(np.uint32)
+        cloud = np.clip(cloud, lower, upper)
     return _core.curve_order(curve, cloud, lower.tolist(), upper.tolist(), threads(workers))
 
 

@@ -2,7 +2,8 @@
 
 from typing import SupportsIndex
 
-from .arguments import integer
+from evenlight.arguments import integer
+
 from .base import Warp
 
 __all__ = ["Ball", "Cylinder", "DiskConcentric", "DiskPolar", "Simplex", "Torus"]

@@ -6,8 +6,9 @@ from typing import Any, SupportsIndex
 import numpy as np
 
 from evenlight import _core
+from evenlight.arguments import WORD, SeedLike, integer, seed_number
 
-from .arguments import Floats, SeedLike, integer, real_array, scramble_name, seed_number
+from .arguments import Floats, real_array, scramble_name
 
 __all__ = ["triangle_kronecker", "triangle_product", "triangle_van_der_corput"]
 
@@ -64,7 +65,7 @@ def triangle_van_der_corput(
     >>> warp.triangle_van_der_corput(4**5, [[0, 0], [3, 0], [0, 3]], scramble="owen", seed=7).mean(axis=0).round(2)
     array([1., 1.])
     """
-    count, first = integer("n", n, 0), integer("start", start, 0)
+    count, first = integer("n", n, 0, WORD), integer("start", start, 0, WORD)
     places = real_array("corners", corners, (3, None))
     if first + count > 2**64:
         raise ValueError(f"start + n must be at most 2^64, not {first + count}")
@@ -171,7 +172,7 @@ def triangle_product(
     >>> x.shape, abs(float((x[:, 0, 0] * x[:, 1, 0]).mean()) - 1 / 9) < 0.002
     ((256, 2, 3), True)
     """
-    count, first = integer("n", n, 0), integer("start", start, 0)
+    count, first = integer("n", n, 0, WORD), integer("start", start, 0, WORD)
     places = real_array("corners", corners, (None, 3, None))
     if first + count > 2**64:
         raise ValueError(f"start + n must be at most 2^64, not {first + count}")

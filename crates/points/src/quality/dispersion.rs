@@ -1,6 +1,6 @@
 //! Dispersion: the volume of the largest box that is empty.
 //!
-//! Boxes of any place with sides along the axes, open, in the unit cube. A box with points in it is replaced by the 2 d boxes that
+//! Boxes of any place with sides along the axes, open, in the unit cube or on the torus, where they go on at the opposite face. A box with points in it is replaced by the 2 d boxes that
 //! its most central point cuts off; the largest box is looked at first, so that the first empty one is the answer, and boxes that
 //! were met before are left out. Exact; the number of boxes grows like n^d at worst, so that it is for small d.
 //!
@@ -12,12 +12,15 @@ use std::collections::{BinaryHeap, HashSet};
 use super::Rows;
 use crate::Error;
 
+/// The most dimensions.
+const MOST_DIMS: usize = 64;
+
 /// The largest empty box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Empty {
     /// Its volume.
     pub volume: f64,
-    /// Where it begins and ends in each coordinate.
+    /// Where it begins and ends in each coordinate; on the torus it may end beyond 1.
     pub lower: Vec<f64>,
     /// See [`Empty::lower`].
     pub upper: Vec<f64>,
@@ -27,6 +30,8 @@ pub struct Empty {
 struct Candidate {
     volume: f64,
     sides: Vec<[f64; 2]>,
+    /// The axes along which it goes all around the torus.
+    around: u64,
     points: Vec<u32>,
 }
 
@@ -57,26 +62,35 @@ impl Ord for Candidate {
 ///
 /// ```
 /// use evenlight_points::quality::{Rows, dispersion::dispersion};
-/// let empty = dispersion(&Rows::new(&[0.5, 0.25], 2)?, 1000)?;
+/// let empty = dispersion(&Rows::new(&[0.5, 0.25], 2)?, false, 1000)?;
 /// assert_eq!((empty.volume, empty.lower, empty.upper), (0.75, vec![0.0, 0.25], vec![1.0, 1.0]));
 /// # Ok::<(), evenlight_points::Error>(())
 /// ```
-pub fn dispersion(rows: &Rows<'_>, limit: usize) -> Result<Empty, Error> {
+pub fn dispersion(rows: &Rows<'_>, torus: bool, limit: usize) -> Result<Empty, Error> {
+    if rows.dims() > MOST_DIMS {
+        return Err(Error::Quality(format!(
+            "points must have 1 to {MOST_DIMS} dimensions, not {}",
+            rows.dims()
+        )));
+    }
     let whole = Candidate {
         volume: 1.0,
         sides: vec![[0.0, 1.0]; rows.dims()],
+        around: if torus { u64::MAX >> (64 - rows.dims()) } else { 0 },
         points: (0..rows.len() as u32).collect(),
     };
     let mut heap = BinaryHeap::from([whole]);
     let mut met: HashSet<Vec<u64>> = HashSet::new();
     while let Some(mut candidate) = heap.pop() {
-        candidate.points.retain(|&point| inside(rows.row(point as usize), &candidate.sides));
+        let points = std::mem::take(&mut candidate.points);
+        candidate.points =
+            points.into_iter().filter(|&point| candidate.holds(rows.row(point as usize))).collect();
         let Some(pivot) = central(rows, &candidate) else {
             let (lower, upper) = candidate.sides.iter().map(|&[lower, upper]| (lower, upper)).unzip();
             return Ok(Empty { volume: candidate.volume, lower, upper });
         };
-        for half in halves(rows.row(pivot as usize), &candidate) {
-            if half.volume > 0.0 && met.insert(half.sides.iter().flatten().map(|x| x.to_bits()).collect()) {
+        for half in candidate.cut(rows.row(pivot as usize)) {
+            if half.volume > 0.0 && met.insert(half.name()) {
                 heap.push(half);
             }
         }
@@ -90,29 +104,51 @@ pub fn dispersion(rows: &Rows<'_>, limit: usize) -> Result<Empty, Error> {
     Ok(Empty { volume: 0.0, lower: vec![0.0; rows.dims()], upper: vec![0.0; rows.dims()] })
 }
 
-fn inside(row: &[f64], sides: &[[f64; 2]]) -> bool {
-    row.iter().zip(sides).all(|(x, [lower, upper])| lower < x && x < upper)
+impl Candidate {
+    /// What tells it from all others.
+    fn name(&self) -> Vec<u64> {
+        let sides = self.sides.iter().flatten().map(|x| x.to_bits());
+        sides.chain([self.around]).collect()
+    }
+
+    /// The side along an axis with the place of a coordinate on it, unless it goes all around.
+    fn side(&self, dim: usize, x: f64) -> Option<(f64, [f64; 2])> {
+        let side = self.sides[dim];
+        let place = if x < side[0] { x + 1.0 } else { x };
+        (self.around >> dim & 1 == 0).then_some((place, side))
+    }
+
+    fn holds(&self, row: &[f64]) -> bool {
+        let within = |(x, [lower, upper]): (f64, [f64; 2])| lower < x && x < upper;
+        row.iter().enumerate().all(|(dim, &x)| self.side(dim, x).is_none_or(within))
+    }
+
+    /// The boxes that avoid a point: two for each axis, and one for an axis around the torus.
+    fn cut(&self, pivot: &[f64]) -> Vec<Self> {
+        let mut found = Vec::with_capacity(2 * pivot.len());
+        for (dim, &x) in pivot.iter().enumerate() {
+            let sides = match self.side(dim, x) {
+                Some((x, [lower, upper])) => vec![[lower, x], [x, upper]],
+                None => vec![[x, x + 1.0]],
+            };
+            for side in sides {
+                let mut sides = self.sides.clone();
+                sides[dim] = side;
+                let volume = sides.iter().map(|[lower, upper]| upper - lower).product();
+                let around = self.around & !(1 << dim);
+                found.push(Self { volume, sides, around, points: self.points.clone() });
+            }
+        }
+        found
+    }
 }
 
 /// The point whose best cut is worst: what it cuts off is small.
 fn central(rows: &Rows<'_>, candidate: &Candidate) -> Option<u32> {
     let largest_part = |point: u32| {
-        let parts = rows.row(point as usize).iter().zip(&candidate.sides);
-        parts.map(|(x, [lower, upper])| (x - lower).max(upper - x) / (upper - lower)).fold(0.0, f64::max)
+        let places =
+            rows.row(point as usize).iter().enumerate().filter_map(|(dim, &x)| candidate.side(dim, x));
+        places.map(|(x, [lower, upper])| (x - lower).max(upper - x) / (upper - lower)).fold(0.0, f64::max)
     };
     candidate.points.iter().copied().min_by(|&a, &b| largest_part(a).total_cmp(&largest_part(b)))
-}
-
-/// The 2 d boxes that avoid a point.
-fn halves(pivot: &[f64], candidate: &Candidate) -> Vec<Candidate> {
-    let mut found = Vec::with_capacity(2 * pivot.len());
-    for (dim, &x) in pivot.iter().enumerate() {
-        for side in 0..2 {
-            let mut sides = candidate.sides.clone();
-            sides[dim][1 - side] = x;
-            let volume = sides.iter().map(|[lower, upper]| upper - lower).product();
-            found.push(Candidate { volume, sides, points: candidate.points.clone() });
-        }
-    }
-    found
 }

@@ -11,6 +11,9 @@ from .density import LEAST, Array, Density, weighted_moments
 
 __all__ = ["Normal"]
 
+_FROZEN = type(stats.multivariate_normal(0.0, 1.0))
+_BLOCK = 8192  # points whose differences from the mean stay in the cache
+
 
 class Normal(Density):
     """Normal with a mean and a covariance matrix: the usual component of mixtures.
@@ -51,6 +54,7 @@ class Normal(Density):
         except np.linalg.LinAlgError:
             raise ValueError("the covariance is not positive definite") from None
         self._inverse_root: Array = linalg.solve_triangular(self.root, np.eye(self.d), lower=True)
+        self._standard_mean: Array = self._inverse_root @ self.mean[:, np.newaxis]
         self._constant = -0.5 * self.d * np.log(2 * np.pi) - float(np.log(np.diag(self.root)).sum())
 
     def sample(self, u: Array) -> Array:
@@ -63,8 +67,12 @@ class Normal(Density):
 
     def squares(self, x: Array) -> Array:
         """Squared distances from the mean, in units of the covariance (Mahalanobis)."""
-        standard = x @ self._inverse_root.T - self._inverse_root @ self.mean
-        return np.asarray(np.einsum("ij,ij->i", standard, standard))
+        found = np.empty(len(x))
+        for start in range(0, len(x), _BLOCK):
+            standard = self._inverse_root @ x[start : start + _BLOCK].T
+            standard -= self._standard_mean
+            np.einsum("ij,ij->j", standard, standard, out=found[start : start + _BLOCK])
+        return found
 
     def fitted(self, x: Array, weights: Array) -> Normal:
         """The normal with mean and covariance of weighted points."""
@@ -74,6 +82,6 @@ class Normal(Density):
     @classmethod
     def adopt(cls, thing: Any) -> Self | None:
         """A frozen `scipy.stats.multivariate_normal`, or one of ours."""
-        if isinstance(thing, type(stats.multivariate_normal(0.0, 1.0))):
+        if isinstance(thing, _FROZEN):
             return cls(thing.mean, thing.cov)
         return super().adopt(thing)

@@ -12,6 +12,8 @@ from .normal import Normal
 
 __all__ = ["StudentT"]
 
+_FROZEN = type(stats.multivariate_t([0.0], 1.0))
+
 
 class StudentT(Density):
     """Student's t with a location, a shape matrix and degrees of freedom: where a normal would miss the tails.
@@ -76,6 +78,6 @@ class StudentT(Density):
     @classmethod
     def adopt(cls, thing: Any) -> Self | None:
         """A frozen `scipy.stats.multivariate_t`, or one of ours."""
-        if isinstance(thing, type(stats.multivariate_t([0.0], 1.0))):
+        if isinstance(thing, _FROZEN):
             return cls(thing.loc, thing.shape, thing.df)
         return super().adopt(thing)

@@ -1,10 +1,16 @@
 """Driving sequences: the uniform numbers that chains are driven by. One sequence, one file."""
 
+from .antithetic import Antithetic
 from .independent import IndependentNumbers
+from .lcg import LCG
 from .lfsr import LFSR
+from .permuted import Permuted
 from .protocol import Driving
+from .stratified import Stratified
 
-__all__ = ["DRIVING", "LFSR", "Driving", "IndependentNumbers"]
+__all__ = ["DRIVING", "LCG", "LFSR", "Antithetic", "Driving", "IndependentNumbers", "Permuted", "Stratified"]
 
-DRIVING: dict[str, type[Driving]] = {driving.name: driving for driving in (IndependentNumbers, LFSR)}
+DRIVING: dict[str, type[Driving]] = {
+    driving.name: driving for driving in (IndependentNumbers, LFSR, LCG, Permuted, Antithetic, Stratified)
+}
 """The classes by their names."""

@@ -25,7 +25,11 @@ class IndependentNumbers(Driving):
     """
 
     name: ClassVar[str] = "independent"
-    independent_steps: ClassVar[bool] = True
+
+    @property
+    def independent_steps(self) -> bool:
+        """Yes."""
+        return True
 
     def stream(self, dims: int, n: int, replicates: int, seed: int) -> Stream:
         """Numbers of a generator with random access."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +27,13 @@ class Driving:
 
     name: ClassVar[str]
     """Its name in the registry."""
-    independent_steps: ClassVar[bool] = False
-    """Whether the steps of each chain by itself are independent: then all that is known of Markov chains holds."""
     coupled: int = 1
     """How many chains make one replicate: they are dependent, and lie side by side."""
+
+    @property
+    def independent_steps(self) -> bool:
+        """Whether the steps of each chain by itself are independent: then all that is known of Markov chains holds."""
+        return False
 
     def length(self, dims: int) -> int | None:
         """How many steps there are; None if there is no end to them. Balanced points must be used as a whole."""
@@ -62,10 +65,6 @@ class Driving:
             If it has no such number of steps, or no such dimensions.
         """
         raise NotImplementedError
-
-    def describe(self) -> dict[str, Any]:
-        """Return its name and settings in plain values."""
-        return {"name": self.name, **{key: value for key, value in vars(self).items() if not key.startswith("_")}}
 
 
 def shifts(dims: int, replicates: int, seed: int) -> Array:

@@ -2,16 +2,47 @@
 
 from evenlight.mcmc.kernel import Kernel
 
+from .delayed_rejection import DelayedRejection
 from .gibbs import Gibbs
+from .herded_gibbs import HerdedGibbs
 from .hmc import HMC
 from .independence import Independence
 from .mala import MALA
 from .metropolis_hastings import MetropolisHastings, Proposal
+from .multiple_try import MultipleTry
+from .parallel_tempering import ParallelTempering
 from .random_walk import RandomWalk
+from .slice import Slice
 
-__all__ = ["HMC", "KERNELS", "MALA", "Gibbs", "Independence", "MetropolisHastings", "Proposal", "RandomWalk"]
+__all__ = [
+    "HMC",
+    "KERNELS",
+    "MALA",
+    "DelayedRejection",
+    "Gibbs",
+    "HerdedGibbs",
+    "Independence",
+    "MetropolisHastings",
+    "MultipleTry",
+    "ParallelTempering",
+    "Proposal",
+    "RandomWalk",
+    "Slice",
+]
 
-KERNELS: dict[str, type[Kernel]] = {
-    kernel.name: kernel for kernel in (RandomWalk, Independence, MetropolisHastings, Gibbs, HMC, MALA)
-}
+_ALL: tuple[type[Kernel], ...] = (
+    RandomWalk,
+    Independence,
+    MetropolisHastings,
+    Gibbs,
+    HMC,
+    MALA,
+    Slice,
+    ParallelTempering,
+    DelayedRejection,
+    MultipleTry,
+    HerdedGibbs,
+)
+
+KERNELS: dict[str, type[Kernel]] = {kernel.name: kernel for kernel in _ALL}
 """The classes by their names."""

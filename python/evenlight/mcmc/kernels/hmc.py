@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from evenlight.arguments import integer
-from evenlight.mcmc.gradients import Gradient, gradient_of
+from evenlight.mcmc.gradients import Gradient, with_gradient
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.leapfrog import GradientState, gradient_state, leapfrog, tuned
 from evenlight.mcmc.metric import root_of
@@ -82,7 +82,7 @@ class HMC(Kernel):
     randomize: bool = True
     covariance: Any = None
     target_acceptance: float = 0.8
-    _gradient: Callable[[Array], Array] = field(init=False, repr=False)
+    _functions: tuple[LogDensity, Callable[[Array], Array]] = field(init=False, repr=False)
     _root: Array | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -91,7 +91,7 @@ class HMC(Kernel):
         integer("steps", self.steps, 1)
         if not 0 < self.target_acceptance < 1:
             raise ValueError(f"target_acceptance must be between 0 and 1, not {self.target_acceptance}")
-        object.__setattr__(self, "_gradient", gradient_of(self.log_density, self.gradient))
+        object.__setattr__(self, "_functions", with_gradient(self.log_density, self.gradient))
         object.__setattr__(self, "_root", root_of(self.covariance))
 
     def dims(self, d: int) -> int:
@@ -100,7 +100,7 @@ class HMC(Kernel):
 
     def init(self, position: Any) -> GradientState:
         """Return positions, the target and its gradient there."""
-        return gradient_state(self.log_density, self._gradient, position)
+        return gradient_state(*self._functions, position)
 
     def step(self, state: GradientState, uniforms: Array) -> tuple[GradientState, HamiltonianInfo]:
         """Draw a momentum, follow the trajectory, accept or stay."""
@@ -108,8 +108,7 @@ class HMC(Kernel):
         lengths = np.full(chains, self.steps)
         if self.randomize:
             lengths = 1 + np.floor(uniforms[:, d + 1] * self.steps).astype(np.int64)
-        functions = (self.log_density, self._gradient, self._root)
-        end = leapfrog(state, normals(uniforms[:, :d]), lengths, self.step_size, functions)
+        end = leapfrog(state, normals(uniforms[:, :d]), lengths, self.step_size, (*self._functions, self._root))
         accepted, probability = metropolis(-end.energy_error, uniforms[:, d])
         new = {"position": end.position, "log_density": end.log_density, "gradient": end.gradient}
         info = HamiltonianInfo(probability, accepted, end.energy_error, lengths.astype(np.float64))

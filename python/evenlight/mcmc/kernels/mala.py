@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from evenlight.mcmc.gradients import Gradient, gradient_of
+from evenlight.mcmc.gradients import Gradient, with_gradient
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.leapfrog import GradientState, gradient_state, leapfrog, tuned
 from evenlight.mcmc.metric import root_of
@@ -61,13 +61,13 @@ class MALA(Kernel):
     gradient: Gradient
     step_size: float = 0.5
     covariance: Any = None
-    _gradient: Callable[[Array], Array] = field(init=False, repr=False)
+    _functions: tuple[LogDensity, Callable[[Array], Array]] = field(init=False, repr=False)
     _root: Array | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         check_callable("log_density", self.log_density)
         check_positive("step_size", self.step_size)
-        object.__setattr__(self, "_gradient", gradient_of(self.log_density, self.gradient))
+        object.__setattr__(self, "_functions", with_gradient(self.log_density, self.gradient))
         object.__setattr__(self, "_root", root_of(self.covariance))
 
     def dims(self, d: int) -> int:
@@ -76,13 +76,14 @@ class MALA(Kernel):
 
     def init(self, position: Any) -> GradientState:
         """Return positions, the target and its gradient there."""
-        return gradient_state(self.log_density, self._gradient, position)
+        return gradient_state(*self._functions, position)
 
     def step(self, state: GradientState, uniforms: Array) -> tuple[GradientState, Info]:
         """Propose along the slope; accept or stay. It is one leapfrog step, whose energy error is Hastings' ratio."""
         chains, d = state.position.shape
-        functions = (self.log_density, self._gradient, self._root)
-        end = leapfrog(state, normals(uniforms[:, :d]), np.ones(chains, np.int64), self.step_size, functions)
+        end = leapfrog(
+            state, normals(uniforms[:, :d]), np.ones(chains, np.int64), self.step_size, (*self._functions, self._root)
+        )
         accepted, probability = metropolis(-end.energy_error, uniforms[:, d])
         new = {"position": end.position, "log_density": end.log_density, "gradient": end.gradient}
         return moved(state, accepted, **new), Info(probability, accepted)

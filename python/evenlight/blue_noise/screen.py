@@ -1,0 +1,131 @@
+"""Blue noise on the screen: dither masks, and places of pixels in one sequence."""
+
+from typing import SupportsIndex
+
+import numpy as np
+import numpy.typing as npt
+
+from evenlight import _core
+from evenlight.arguments import WORD, SeedLike, integer, seed_number
+
+__all__ = ["dither_mask", "pixel_places"]
+
+
+def dither_mask(
+    shape: tuple[SupportsIndex, SupportsIndex],
+    channels: SupportsIndex | None = None,
+    *,
+    seed: SeedLike = None,
+) -> npt.NDArray[np.float64]:
+    """Make a dither mask by void and cluster: whatever the threshold, the pixels below it are blue noise.
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Rows and columns, at least one each and at most 2^24 pixels. The mask can be repeated in both directions.
+    channels : int, optional
+        The number of values of each pixel, each of which is a mask of its own; without it there is no last axis.
+    seed : int or numpy.random.Generator, optional
+        The same number always gives the same bits; 0 by default.
+
+    Returns
+    -------
+    array of float64, shape (rows, columns) or (rows, columns, channels)
+        Each channel has the values (r + 1/2) / pixels, r = 0, 1, ..., once each. In the order of its values, the
+        pixels of a channel are progressive samples of the plane.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not as above.
+
+    Notes
+    -----
+    128 x 128 pixels take 0.03 seconds, 512 x 512 take 3.
+
+    References: R. Ulichney, *The void-and-cluster method for dither array generation*, Proc. SPIE 1913, 332-343 (1993).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from evenlight import blue_noise
+    >>> mask = blue_noise.dither_mask((64, 64), seed=1)
+    >>> gray = np.full((64, 64), 0.3)
+    >>> float((mask < gray).mean())
+    0.300048828125
+    """
+    rows, columns = _sides(shape)
+    first = seed_number(seed)
+    if channels is None:
+        return _values(rows, columns, first)
+    count = integer("channels", channels, 1, WORD)
+    seeds = np.random.SeedSequence(first).generate_state(count, np.uint64)
+    return np.stack([_values(rows, columns, int(seed)) for seed in seeds], axis=-1)
+
+
+def pixel_places(
+    shape: tuple[SupportsIndex, SupportsIndex],
+    *,
+    curve: str = "hilbert",
+    shuffle: bool = True,
+    seed: SeedLike = None,
+) -> npt.NDArray[np.uint64]:
+    """Number the pixels of an image so that neighbors share a net: their errors cancel when the eye averages them.
+
+    Pixel p of the order takes the points ``p * spp`` to ``(p + 1) * spp - 1`` of one sequence for the whole image. The
+    error of each pixel is as large as with points of its own, but what is left of it after a blur is much less.
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Rows and columns, 1 to 65,536.
+    curve : {"hilbert", "morton", "gray"}, default "hilbert"
+        The order of the pixels before the shuffle.
+    shuffle : bool, default True
+        Whether the four quarters of the square, and again of each quarter, change places at random. Without it the
+        curve is seen in the errors.
+    seed : int or numpy.random.Generator, optional
+        For the shuffle; a shuffle of its own for every pair of dimensions makes these independent. 0 by default.
+
+    Returns
+    -------
+    array of uint64, shape (rows, columns)
+        Different places below 4^k, for an image in a square of side 2^k.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not as above.
+
+    Notes
+    -----
+    0.2 microseconds per pixel.
+
+    References: A. Ahmed and P. Wonka, *Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
+    ordering of pixels*, ACM Trans. Graph. 39(6), 244 (2020).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from evenlight import blue_noise, points
+    >>> places = blue_noise.pixel_places((32, 32), seed=1)
+    >>> x = points.Sobol(2, scramble="owen", seed=1).points(0, 4 * 1024).reshape(1024, 4, 2)[places]
+    >>> x.shape
+    (32, 32, 4, 2)
+    >>> error = (x**2).sum(axis=-1).mean(axis=-1) - 2 / 3
+    >>> blocks = error.reshape(8, 4, 8, 4).mean(axis=(1, 3))  # 16 pixels are 64 points of a net
+    >>> bool(np.std(blocks) < 0.1 * np.std(error))
+    True
+    """
+    rows, columns = _sides(shape)
+    return _core.pixel_places(curve, (rows, columns), seed_number(seed) if shuffle else None)
+
+
+def _sides(shape: tuple[SupportsIndex, SupportsIndex]) -> tuple[int, int]:
+    rows, columns = shape
+    return integer("rows", rows, 1, WORD), integer("columns", columns, 1, WORD)
+
+
+def _values(rows: int, columns: int, seed: int) -> npt.NDArray[np.float64]:
+    ranks = _core.dither_ranks((rows, columns), seed)
+    return (ranks + 0.5) / ranks.size

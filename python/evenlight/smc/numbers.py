@@ -1,0 +1,68 @@
+"""The uniform numbers of one replicate: independent point sets for the start and for every step, of any sequence."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenlight import _core
+from evenlight.points import Engine, Sobol
+
+__all__ = ["StepNumbers", "example_points"]
+
+Array = NDArray[np.float64]
+
+_BLOCK = 1 << 18  # numbers that are made at once
+
+
+def example_points(points: Any) -> Engine:
+    """The sequence to use, given as a class or as an example; scrambled Sobol' points by default."""
+    engine = Sobol(1) if points is None else points(1) if isinstance(points, type) else points
+    if not isinstance(engine, Engine):
+        raise TypeError(f"points must be one of evenlight.points, such as Sobol, not {type(engine).__name__}")
+    if engine.finite or not engine.is_random:
+        lack = "an end" if engine.finite else "no randomness"
+        raise ValueError(f"{engine!r} has {lack}; points must be a randomized sequence without end, such as Sobol")
+    return engine
+
+
+class StepNumbers:
+    """n points for the start and n for every step, all sets independent, pure functions of seeds and step.
+
+    Parameters
+    ----------
+    example : evenlight.points.Engine
+        The sequence.
+    n : int
+        Points in each set.
+    columns : int
+        Numbers in each point of a step.
+    *seeds : int
+        The seed, and what splits it: numbers with other ones are independent.
+    """
+
+    def __init__(self, example: Engine, n: int, columns: int, *seeds: int) -> None:
+        self._example, self._n, self._columns, self._seeds = example, n, columns, seeds
+        self._steps = max(1, min(32, _BLOCK // (n * columns)))
+        self._first = 0
+        self._block: Array = np.empty((0, n, columns))
+
+    def start(self, columns: int) -> Array:
+        """The points of the start, shape (n, columns)."""
+        return np.asarray(self._set(columns, 0).points(0, self._n))
+
+    def step(self, number: int) -> Array:
+        """The points of a step, from 0 on, shape (n, columns)."""
+        if not self._first <= number < self._first + len(self._block):
+            block = number // self._steps
+            self._first = block * self._steps
+            self._block = self._set(self._columns, 1 + block).points(0, self._n, replicates=self._steps)
+        return np.asarray(self._block[number - self._first])
+
+    def _set(self, columns: int, part: int) -> Engine:
+        seed, *splits = *self._seeds, part
+        for split in splits:
+            seed = _core.replicate_seed(seed, split)
+        return type(self._example)(**{**self._example._spec(), "d": columns}, seed=seed)
