@@ -58,7 +58,8 @@ def integrate(
     rtol, atol : float, optional
         Work until the interval is within ``max(atol, rtol * |integral|)`` of the value, for every entry of an array.
     replicates : int
-        Independent randomizations, at least 2, that the error is judged by. Without effect on "mc" and "qmc".
+        Independent randomizations, at least 2, that the error is judged by. Without effect on "mc" and "qmc". Up to a
+        tolerance, 8 take a tenth fewer values than 16, but for smooth f a quarter; lattices fewer than nets for some.
     level : float
         The share of runs whose error is to be within the tolerance.
     max_n : int
