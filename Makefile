@@ -88,12 +88,16 @@ bench-quality: setup $(PEERS) ## Measure discrepancies, indices and sorts agains
 	$(BIN)/python -m benches.quality
 
 .PHONY: bench-estimators
-bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, and the optimizer of mixture weights
-	$(BIN)/python -m benches.estimators
+bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, pypmc and vegas
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.estimators
+
+.PHONY: bench-chains
+bench-chains: setup $(PEERS) ## Measure chains against nutpie and BlackJAX, and what evenly spread numbers gain
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.chains
 
 .PHONY: bench-multilevel
-bench-multilevel: setup $(PEERS) ## Measure multilevel methods on an Asian option against QMCPy
-	OMP_NUM_THREADS=1 $(BIN)/python -m benches.multilevel
+bench-multilevel: setup $(PEERS) ## Measure multilevel methods against QMCPy, and how their costs grow
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.multilevel
 
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc

@@ -65,7 +65,7 @@ def test_the_rare_event() -> None:
 
 @pytest.mark.timeout(900)
 def test_adaptive_mixtures() -> None:
-    """10⁵ values in all on the singularity: pypmc 1.2.6 errs by 4.4e-4, at sixteen times the processor time."""
+    """10⁵ values in all on the singularity: pypmc 1.2.6 errs by 4.4e-4, at twenty times the processor time."""
     problem, runs = singularity(), max(RUNS, 200)
     found = [
         adaptive_estimate(problem.f, problem.target, problem.proposals, n=100_000, seed=seed) for seed in range(runs)

@@ -31,7 +31,7 @@ def test_version(evenlight_command: Run) -> None:
     assert (done.returncode, done.stdout) == (0, f"evenlight {evenlight.__version__}\n")
 
 
-@pytest.mark.parametrize("command", [[], ["render"], ["points"], ["info"]])
+@pytest.mark.parametrize("command", [[], ["render"], ["points"], ["multilevel"], ["info"]])
 def test_help_says_what_can_be_asked(evenlight_command: Run, command: list[str]) -> None:
     done = evenlight_command(*command, "--help")
     assert done.returncode == 0
@@ -144,3 +144,16 @@ def test_an_interrupt_writes_what_there_is(tmp_path: Path, scenes: Path, request
         assert archive["color"].shape == (48, 64, 3)
     with OpenEXR.File(str(tmp_path / "a.exr"), True) as file:
         assert file.header()["evenlight:partial"] == "true"
+
+
+def test_levels_are_summed_and_shown(evenlight_command: Run) -> None:
+    done = evenlight_command("multilevel", "gbm", "european", "milstein", "strike=110", "--rmse", "0.2", "--seed", "3")
+    assert done.returncode == 0
+    summary, header, *rows = done.stdout.splitlines()
+    assert summary.startswith("Estimate(")
+    assert header.split() == ["level", "N", "mean", "variance", "cost", "kurtosis", "consistency"]
+    assert [int(row.split()[0]) for row in rows] == list(range(len(rows)))
+    plain = json.loads(evenlight_command("multilevel", "gbm", "asian", "--rmse", "0.2", "--json").stdout)
+    assert plain["method"] == "mlmc"
+    assert plain["interval"][0] < 5.76309 < plain["interval"][1]  # the price
+    assert "known: european" in error_of(evenlight_command("multilevel", "gbm", "nothing", "--rmse", "0.2"))

@@ -330,3 +330,18 @@ def test_medians_merge_into_the_median_of_all() -> None:
     for kind in ("unskewed", "percentile-t"):
         with pytest.raises(ValueError, match="kind='t'"):
             merged.confidence_interval(kind=kind)
+
+
+def test_a_design_serves_any_number_of_runs() -> None:
+    """What one run makes of it stays in that run."""
+    design = LatinHypercube(3, seed=1)
+    found = {n: evenlight.integrate(product, design, n=n).value for n in (64, 128)}
+    assert design.n is None
+    assert found[128] == evenlight.integrate(product, LatinHypercube(3, seed=1), n=128).value
+
+
+def test_a_run_up_to_a_tolerance_tells_what_it_saw() -> None:
+    estimate = evenlight.integrate(product, Sobol(3, seed=1), atol=1e-5)
+    looks = estimate.diagnostics["looks"]
+    assert [n for n, _, _ in looks] == [2048 * 2**k for k in range(len(looks))]
+    assert looks[-1] == (estimate.n, estimate.value, estimate.standard_error)

@@ -322,6 +322,9 @@ def test_herded_gibbs_converges_as_one_over_t() -> None:
     energies = 0.5 * np.einsum("si,kij,sj->ks", states, couplings, states) + biases @ states.T
     exact = special.softmax(energies, axis=1)
     chains = mcmc.run(HerdedGibbs(conditional), np.zeros((10, 4)), n=3000)
+    estimate = chains.estimate(lambda x: x)
+    assert np.isnan(estimate.standard_error).all()  # chains of the same start are the same
+    assert estimate.replicates == 1
     codes = (draws(chains) @ (2 ** np.arange(4))).astype(int)
     for steps in (300, 1000, 3000):
         found = np.stack([np.bincount(chain[:steps], minlength=16) / steps for chain in codes])

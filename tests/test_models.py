@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -32,6 +33,10 @@ def mean_reversion(**settings: Any) -> models.StochasticDifferentialEquation:
     )
 
 
+def births_and_deaths(x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+    return 30.0, x[0]
+
+
 EXAMPLES: dict[str, list[Any]] = {
     "gbm": [
         *(build("gbm", payoff) for payoff in models.PAYOFFS),
@@ -42,7 +47,7 @@ EXAMPLES: dict[str, list[Any]] = {
     "heston": [build("heston"), build("heston", "euler", construction="pca")],
     "clark_cameron": [build("clark_cameron"), build("clark_cameron", antithetic=False, construction="bridge")],
     "reaction_paths": [
-        build("reaction_paths", models.ReactionNetwork([[1], [-1]], lambda x: (30.0, x[0]), [5]), exact_level=2)
+        build("reaction_paths", models.ReactionNetwork([[1], [-1]], births_and_deaths, [5]), exact_level=2)
     ],
     "nested_expectation": [models.partial_information(0.2)[0]],
     "diffusion_1d": [build("diffusion_1d"), build("diffusion_1d", "uniform", first_cells=3)],
@@ -105,6 +110,17 @@ def test_the_last_rungs_of_a_ladder_are_fine_and_coarse(model: Any) -> None:
     assert rungs.shape == (30, 3)
     assert rungs[:, 2] == pytest.approx(coupled.fine, rel=1e-12)
     assert rungs[:, 1] == pytest.approx(coupled.coarse, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "model", [model for model in ALL + INDEXED if "sde" not in model.name], ids=lambda model: model.name
+)
+def test_models_travel(model: Any) -> None:
+    """Those of functions that have a name, that is: not the lambdas of the equation above."""
+    copy = pickle.loads(pickle.dumps(model))
+    level = (1, 1) if model in INDEXED else 1
+    u = np.random.default_rng(1).random((8, model.dims(level)))
+    assert (copy.sample(level, u).fine == model.sample(level, u).fine).all()
 
 
 @pytest.mark.parametrize("payoff", models.PAYOFFS)

@@ -19,6 +19,7 @@ from evenlight.multilevel import (
     MultilevelWarning,
     brownian_increments,
     debias,
+    level_figure,
     level_table,
     mlmc,
     mlqmc,
@@ -258,6 +259,18 @@ def test_what_a_sampler_returns_is_checked() -> None:
             mlmc(FunctionSampler(function, name="wrong"), rmse=0.1)
     with pytest.raises(TypeError, match="must be a LevelSampler"):
         mlmc(lambda level, u: u, rmse=0.1)
+
+
+def test_the_figure_shows_the_table() -> None:
+    estimate = mlmc(PowerOfUniform(), rmse=0.01, seed=1)
+    rows = estimate.diagnostics["levels"]
+    panels = level_figure(estimate).axes
+    assert np.array_equal(panels[2].lines[0].get_ydata(), [row.n for row in rows])
+    assert np.allclose(2.0 ** panels[0].lines[1].get_ydata(), [row.variance for row in rows[1:]])
+    assert np.allclose(panels[4].lines[0].get_ydata(), [row.consistency for row in rows[1:]])
+    for show in (level_figure, level_table):
+        with pytest.raises(ValueError, match="no levels"):
+            show(debias(NormalLevels(1.0, 2.0), n=100))
 
 
 def test_estimates_of_multilevel_methods_are_plain_data() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 import evenlight
 from evenlight import integrands, lab
-from evenlight.points import Independent, InterlacedSobol, Sobol
+from evenlight.points import Independent, InterlacedSobol, LatinHypercube, Sobol
 
 
 @pytest.mark.parametrize("case", lab.RATE_CASES, ids=lambda case: case.label)
@@ -52,7 +52,17 @@ def test_the_jackknife_says_how_far_slopes_scatter() -> None:
     assert 0.65 < stated / actual < 1.6  # chi-square with 39 degrees of freedom, 1e-3 on either side
 
 
+def test_designs_are_built_anew_for_every_number() -> None:
+    """Latin hypercubes: n^(-3/2) for sums of functions of one variable, each smooth (M. Stein, 1987)."""
+    measured = lab.rates(lambda x: np.exp(x).sum(axis=1), LatinHypercube(3, seed=1), exact=3 * (np.e - 1))
+    assert abs(measured.slope + 1.5) < 0.1
+
+
 def test_what_has_no_slope_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"one number for each point, not \(2,\)"):
+        lab.rates(lambda x: x, Sobol(2), exact=0.5)
+    with pytest.raises(ValueError, match=r"one number for each point, not \(2,\)"):
+        lab.rates(lambda x: x, Sobol(2, scramble="none"), exact=0.5)
     with pytest.raises(ValueError, match="exact integral must be known"):
         lab.rates(lambda x: x[:, 0], Sobol(1))
     with pytest.raises(ValueError, match="there is no slope"):

@@ -25,6 +25,7 @@ from evenlight import (
 from evenlight._core import __version__
 from evenlight.estimate import Estimate
 from evenlight.integrate import integrate
+from evenlight.quantiles import quantile
 from evenlight.render import Film, Scene, load_scene, render
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "multilevel",
     "points",
     "quality",
+    "quantile",
     "reduction",
     "render",
     "smc",

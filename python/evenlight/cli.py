@@ -1,4 +1,4 @@
-"""The command line: `evenlight render | points | integrate | info`."""
+"""The command line: `evenlight render | points | integrate | multilevel | info`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import math
 import signal
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -17,9 +18,12 @@ from tqdm import tqdm
 import evenlight
 from evenlight import _core, integrands, points, rules, tables
 from evenlight.film import Film, check_output
+from evenlight.multilevel import debias, level_table, mlmc, mlqmc, models
 from evenlight.render import read_scene
 
 __all__ = ["main"]
+
+_LEVEL_METHODS: dict[str, Any] = {"mlmc": mlmc, "mlqmc": mlqmc, "debias": debias}
 
 EXIT_ERROR = 2
 EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells have it
@@ -104,8 +108,7 @@ def _integrate(options: argparse.Namespace) -> int:
     engine = points.build(options.sequence, options.dims, scramble=options.scramble, seed=options.seed)
     if options.n is None and options.rtol is None and options.atol is None:
         options.n = 2**16
-    with warnings.catch_warnings(record=True) as raised:
-        warnings.simplefilter("always")
+    with _shown_warnings():
         estimate = evenlight.integrate(
             problem,
             engine,
@@ -117,14 +120,40 @@ def _integrate(options: argparse.Namespace) -> int:
             max_n=options.max_n,
             method=options.method,
         )
-    for warning in raised:
-        print(f"evenlight: warning: {warning.message}", file=sys.stderr)
     low, high = estimate.confidence_interval(options.level)
     known = {"exact": problem.exact, "interval": None if math.isnan(low) else [low, high], "level": options.level}
-    print(
-        json.dumps(estimate.to_dict() | known, indent=2) if options.json else f"{estimate!r}, exact {problem.exact!r}"
-    )
+    if options.json:
+        print(json.dumps(estimate.to_dict() | known, indent=2))
+    else:
+        interval = "" if math.isnan(low) else f", {options.level:.4g} interval [{low:.8g}, {high:.8g}]"
+        print(f"{estimate!r}{interval}, exact {problem.exact!r}")
     return 0
+
+
+def _multilevel(options: argparse.Namespace) -> int:
+    plain = [setting for setting in options.setting if not isinstance(setting, tuple)]
+    named: dict[str, Any] = dict(setting for setting in options.setting if isinstance(setting, tuple))
+    model = models.build(options.model, *plain, **named)
+    with _shown_warnings():
+        estimate = _LEVEL_METHODS[options.method](model, rmse=options.rmse, seed=options.seed)
+    low, high = estimate.confidence_interval(options.level)
+    if options.json:
+        print(json.dumps(estimate.to_dict() | {"interval": [low, high], "level": options.level}, indent=2))
+        return 0
+    print(f"{estimate!r}, {options.level:.0%} interval {low:.8g} to {high:.8g}, cost {estimate.cost:.4g}")
+    if "levels" in estimate.diagnostics:
+        print(level_table(estimate))
+    return 0
+
+
+@contextmanager
+def _shown_warnings() -> Iterator[None]:
+    """Warnings become lines on standard error."""
+    with warnings.catch_warnings(record=True) as raised:
+        warnings.simplefilter("always")
+        yield
+    for warning in raised:
+        print(f"evenlight: warning: {warning.message}", file=sys.stderr)
 
 
 def _load(options: argparse.Namespace) -> evenlight.Scene:
@@ -179,6 +208,9 @@ def _parser() -> argparse.ArgumentParser:
     _add_points(commands.add_parser("points", help="write points", description="Write (randomized) points."))
     _add_integrate(
         commands.add_parser("integrate", help="integrate a test function", description="Integrate a test function.")
+    )
+    _add_multilevel(
+        commands.add_parser("multilevel", help="estimate by levels", description="Estimate a model by its levels.")
     )
     info = commands.add_parser("info", help="say what a scene contains", description="Say what a scene contains.")
     _add_scene(info)
@@ -277,6 +309,31 @@ def _add_integrate(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=int, default=0, help="same seed, same bits (%(default)s)")
     add("--json", action="store_true", help="print everything as JSON")
     parser.set_defaults(run=_integrate)
+
+
+def _add_multilevel(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("model", choices=list(models.MODELS), metavar="MODEL", help=", ".join(models.MODELS))
+    add("setting", nargs="*", type=_setting, help="what the model asks, such as: asian exact construction=bridge")
+    add("--rmse", type=float, required=True, help="root mean squared error to reach, of bias and noise together")
+    add("--method", choices=list(_LEVEL_METHODS), default="mlmc", help="above the levels (%(default)s)")
+    add("--level", type=float, default=0.95, help="of the interval (%(default)s)")
+    add("--seed", type=int, default=0, help="same seed, same bits (%(default)s)")
+    add("--json", action="store_true", help="print everything as JSON")
+    parser.set_defaults(run=_multilevel)
+
+
+def _setting(text: str) -> Any:
+    """A word, or a pair of a name and a number or a word."""
+    name, equals, value = text.partition("=")
+    if not equals:
+        return text
+    for kind in (int, float):
+        try:
+            return name, kind(value)
+        except ValueError:
+            continue
+    return name, value
 
 
 def _natural(text: str) -> int:

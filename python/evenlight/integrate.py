@@ -58,7 +58,8 @@ def integrate(
     rtol, atol : float, optional
         Work until the interval is within ``max(atol, rtol * |integral|)`` of the value, for every entry of an array.
     replicates : int
-        Independent randomizations, at least 2, that the error is judged by. Without effect on "mc" and "qmc".
+        Independent randomizations, at least 2, that the error is judged by. Without effect on "mc" and "qmc". Up to a
+        tolerance, 8 take a tenth fewer values than 16, but for smooth f a quarter; lattices fewer than nets for some.
     level : float
         The share of runs whose error is to be within the tolerance.
     max_n : int
@@ -85,7 +86,8 @@ def integrate(
     Returns
     -------
     Estimate
-        The integral. `converged` is False where `max_n` came before the tolerance.
+        The integral. `converged` is False where `max_n` came before the tolerance. Of a run up to a tolerance,
+        ``diagnostics["looks"]`` has function values, value and standard error at every look.
 
     Raises
     ------
@@ -215,9 +217,12 @@ def _until(rule: Rule, points: Any, goal: _Goal, done: int, bar: _Bar) -> Estima
     if most < 2:
         raise ValueError(f"max_n = {goal.most} is not enough for {rule.copies} replicates")
     rows = min(max(rule.first, done), most)
+    looks: list[tuple[int, Any, Any]] = []
     while True:
         rule.extend(rows)
-        estimate = replace(rule.estimate(), sequential=True)
+        estimate = rule.estimate()
+        looks.append((estimate.n, estimate.value, estimate.standard_error))
+        estimate = replace(estimate, sequential=True, diagnostics=estimate.diagnostics | {"looks": looks})
         bar.show(estimate)
         if goal.reached(estimate) and (rows >= _CONFIRMATIONS * rule.first or np.all(estimate.standard_error)):
             return replace(estimate, message="tolerance reached")

@@ -46,7 +46,7 @@ def rates(
     f : callable
         From points, shape (m, d), to values, shape (m,).
     points : evenlight.points.Engine
-        Fixed, or with randomness to replicate.
+        Fixed, or with randomness to replicate; of designs, which have all their points at once, one for every number.
     exact : float, optional
         The integral; by default `f.exact`, which test integrands have.
     least, most : int
@@ -64,7 +64,7 @@ def rates(
     Raises
     ------
     ValueError
-        If there is no exact integral, fewer than two numbers of points, or an error of 0.
+        If there is no exact integral, fewer than two numbers of points, several values for a point, or an error of 0.
 
     Examples
     --------
@@ -98,14 +98,22 @@ def _means(f: Callable[[Any], Any], points: Any, counts: Any, replicates: int) -
     integrand = Integrand(f, None, "raise")
     if not points.is_random:
         values, _ = integrand(points.points(0, int(counts[-1])), 0)
-        sums = np.cumsum(values)
+        sums = np.cumsum(_numbers(values))
         return [sums[[n - 1]] / n for n in counts]
     state = ReplicateMeans(integrand, points, replicates)
     found = []
     for n in counts:
+        if getattr(points, "finite", False):
+            state = ReplicateMeans(integrand, points, replicates)
         state.extend(int(n))
-        found.append(state.means.copy())
+        found.append(_numbers(state.means.copy()))
     return found
+
+
+def _numbers(values: Array) -> Array:
+    if values.ndim != 1:
+        raise ValueError(f"f must return one number for each point, not {values.shape[1:]}")
+    return values
 
 
 def _slope(n: Any, errors: Array, log_power: float) -> Any:

@@ -10,6 +10,7 @@ from .decay import Rates
 from .functions import FunctionSampler
 from .level import LevelRow
 from .level_distribution import LevelDistribution
+from .level_figure import level_figure
 from .level_sampler import Coupled, Ladder, LevelSampler, MultiIndexSampler
 from .level_table import MultilevelWarning, level_table
 from .mlmc import mlmc
@@ -30,6 +31,7 @@ __all__ = [
     "Rates",
     "brownian_increments",
     "debias",
+    "level_figure",
     "level_table",
     "mlmc",
     "mlqmc",

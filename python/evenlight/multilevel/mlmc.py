@@ -82,9 +82,11 @@ def mlmc(
     level is added while the bias, bounded by the means of the last three levels, takes more than half of the tolerance,
     or while another level makes the whole cheaper: what bias leaves is the variance's. Tolerances are approached by
     halving, so that few samples hang on a pilot's variance. Of the squared tolerance, a quarter is kept for what
-    estimated variances and rates get wrong: errors are 0.6 to 0.9 of the tolerance. Where means of differences fall
-    much more slowly than 2^-l, as for barriers that are looked at only at time steps, give alpha: a large tolerance
-    leaves no samples to measure it.
+    estimated variances and rates get wrong: errors are 0.6 to 0.9 of the tolerance.
+
+    No bound of the bias holds where the first few differences say nothing of the later ones. On barriers that are
+    looked at only at time steps (GeometricBrownianMotion("barrier", "euler")) differences change their sign and then
+    grow up to level 4, and errors are up to 3 times a large tolerance; give alpha there, or a small tolerance.
 
     References: M. B. Giles, "Multilevel Monte Carlo path simulation", Oper. Res. 56(3), 607-617 (2008), and
     "Multilevel Monte Carlo methods", Acta Numerica 24, 259-328 (2015); N. Collier, A.-L. Haji-Ali, F. Nobile, E. von

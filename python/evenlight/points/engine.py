@@ -280,7 +280,7 @@ class Engine(qmc.QMCEngine):
         if rows == 0 or self.d == 0:
             return np.empty((rows, self.d))
         if self._core is None:
-            self._options["n"] = self.num_generated + rows
+            self._options = self._options | {"n": self.num_generated + rows}  # copies share what was there
             self._core = self._build(int(self.d))
         self._warn_of_imbalance(rows)
         drawn: npt.NDArray[np.float64] = self.points(self.num_generated, self.num_generated + rows)

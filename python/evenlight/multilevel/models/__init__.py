@@ -14,7 +14,7 @@ from .fields import FIELDS, Field, LogNormalField, UniformField
 from .formats import FORMATS, Arithmetic, FixedPoint, NativeFloat, RoundedFloat
 from .gbm import GeometricBrownianMotion
 from .heston import Heston, HestonTerms, heston_call
-from .mixed_precision import MixedPrecision, euler_call
+from .mixed_precision import EulerCall, MixedPrecision
 from .nested_expectation import NestedExpectation, partial_information
 from .option import Option, black_scholes_call
 from .payoffs import PAYOFFS
@@ -35,6 +35,7 @@ __all__ = [
     "ClarkCameron",
     "Diffusion1D",
     "Diffusion2D",
+    "EulerCall",
     "Field",
     "FixedPoint",
     "GeometricBrownianMotion",
@@ -55,7 +56,6 @@ __all__ = [
     "UniformField",
     "black_scholes_call",
     "build",
-    "euler_call",
     "gene_transcription",
     "heston_call",
     "partial_information",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Any, SupportsIndex
 
 import numpy as np
@@ -16,7 +17,7 @@ from evenlight.multilevel.level_sampler import Coupled, LevelSampler
 from .formats import Arithmetic, as_arithmetic
 from .option import Option
 
-__all__ = ["MixedPrecision", "euler_call"]
+__all__ = ["EulerCall", "MixedPrecision"]
 
 Array = NDArray[np.float64]
 Simulation = Callable[[Arithmetic, Array], Any]
@@ -25,7 +26,8 @@ _LADDER = ("fixed2", "fixed4", "fixed8", "float16", "float32", "float64")
 _BLOCK = 2**15
 
 
-def euler_call(option: Option) -> Simulation:
+@dataclass(frozen=True)
+class EulerCall:
     """A European call by Euler's scheme, as `MixedPrecision` runs it.
 
     The state is the relative gain x = S / S_0 - 1, within -1 and 1 but for the rarest paths, so that few bits of a
@@ -34,22 +36,24 @@ def euler_call(option: Option) -> Simulation:
     Examples
     --------
     >>> import numpy as np
-    >>> from evenlight.multilevel.models import NativeFloat, Option, euler_call
-    >>> simulation = euler_call(Option(rate=0.0, volatility=0.1))
+    >>> from evenlight.multilevel.models import EulerCall, NativeFloat, Option
+    >>> simulation = EulerCall(Option(rate=0.0, volatility=0.1))
     >>> simulation(NativeFloat(64), np.array([[1.0], [1.0], [1.0], [1.0]])).round(4)  # 1.05⁴
     array([21.5506])
     """
 
-    def simulate(arithmetic: Arithmetic, z: Array) -> Array:
-        h = option.horizon / len(z)
+    option: Option = field(default_factory=Option)
+    """Its terms."""
+
+    def __call__(self, arithmetic: Arithmetic, z: Array) -> Array:
+        """Discounted payoffs, shape (n,), from standard normal numbers, shape (steps, n)."""
+        option, h = self.option, self.option.horizon / len(z)
         growth = arithmetic.number(z * (option.volatility * np.sqrt(h)) + option.rate * h)
         x = growth[0]
         for g in growth[1:]:
             x = arithmetic.add(x, arithmetic.add(g, arithmetic.multiply(x, g)))
         price = option.spot * (1.0 + arithmetic.double(x))
         return np.asarray(np.maximum(price - option.strike, 0.0) * option.discount)
-
-    return simulate
 
 
 class MixedPrecision(LevelSampler):
@@ -65,7 +69,7 @@ class MixedPrecision(LevelSampler):
         emulated), "float16", "float32", "float64" (real). The last one defines the quantity.
     simulation : callable, optional
         From an `Arithmetic` and standard normal numbers, shape (steps, n), to values, shape (n,), in doubles. By
-        default `euler_call` with the default option.
+        default `EulerCall` with the default option.
     steps : int
         Normal numbers that a simulation takes.
     costs : sequence of float, optional
@@ -114,7 +118,7 @@ class MixedPrecision(LevelSampler):
         if len(stated) != len(self.formats) or not all(0.0 < cost < np.inf for cost in stated):
             raise ValueError(f"costs must be {len(self.formats)} numbers above 0, one for each format, not {costs!r}")
         self._costs = stated
-        self._simulation = euler_call(Option()) if simulation is None else simulation
+        self._simulation = EulerCall() if simulation is None else simulation
         self.name = f"mixed_precision {self.formats[0].name} to {self.formats[-1].name}"
         self.max_level = len(self.formats) - 1
 

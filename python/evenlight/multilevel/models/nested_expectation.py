@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, SupportsIndex
 
 import numpy as np
@@ -129,6 +130,19 @@ class NestedExpectation(LevelSampler):
         return values
 
 
+@dataclass(frozen=True)
+class _Benefits:
+    """Of doing nothing, and of gaining X + Y."""
+
+    mean: float
+    spread: float
+    noise: float
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        gain = self.mean + self.spread * normals(x) + self.noise * normals(y)
+        return np.concatenate([np.zeros_like(gain), gain], axis=2)
+
+
 def partial_information(
     mean: float = 0.0, spread: float = 1.0, noise: float = 1.0, *, first_samples: SupportsIndex = 1
 ) -> tuple[NestedExpectation, float]:
@@ -161,11 +175,7 @@ def partial_information(
     """
     if not (spread > 0.0 and noise > 0.0):
         raise ValueError(f"spread and noise must be above 0, not {spread} and {noise}")
-
-    def benefits(x: Array, y: Array) -> Array:
-        gain = mean + spread * normals(x) + noise * normals(y)
-        return np.concatenate([np.zeros_like(gain), gain], axis=2)
-
+    benefits = _Benefits(mean, spread, noise)
     model = NestedExpectation(benefits, outer_dims=1, inner_dims=1, first_samples=first_samples)
     ratio = mean / spread
     density = math.exp(-0.5 * ratio**2) / math.sqrt(2.0 * math.pi)
