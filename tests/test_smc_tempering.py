@@ -48,7 +48,6 @@ def test_a_normal_posterior(waste_free: bool, temperatures: Any) -> None:
 
 def test_two_far_modes_keep_their_shares() -> None:
     """0.25 of the mass around 5, the rest around -5: a single walk would never cross."""
-
     right, left = Normal([5.0, 0.0], 0.05), Normal([-5.0, 0.0], 0.05)
 
     def log_likelihood(x: Any) -> Any:
