@@ -91,6 +91,10 @@ bench-quality: setup $(PEERS) ## Measure discrepancies, indices and sorts agains
 bench-estimators: setup $(PEERS) ## Measure estimators against QMCPy, pypmc and vegas
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.estimators
 
+.PHONY: bench-chains
+bench-chains: setup $(PEERS) ## Measure chains against nutpie and BlackJAX, and what evenly spread numbers gain
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.chains
+
 .PHONY: bench-multilevel
 bench-multilevel: setup $(PEERS) ## Measure multilevel methods against QMCPy, and how their costs grow
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.multilevel

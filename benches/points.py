@@ -27,6 +27,7 @@ from benches.machine import describe
 from benches.points_report import to_markdown
 from benches.yardsticks import Yardsticks
 from evenlight import points
+from evenlight.quality import lattice_error
 
 HERE = Path(__file__).resolve().parent
 Record = dict[str, Any]
@@ -141,12 +142,17 @@ def measure_families(bench: Bench) -> list[Record]:
             "QMCPy": (1 << 17, lambda n: qmcpy.LatinHypercube(dims, replications=1, seed=1)(n)),
         },
         "lattice": {"QMCPy": (large, qmcpy.Lattice(dims, seed=1, order="LINEAR"))},
+        "korobov": {"QMCPy": (1 << 16, qmcpy.KorobovLattice(dims, seed=1))},
+        "kronecker": {"QMCPy": (1 << 17, qmcpy.Kronecker(dims, seed=1, generating_vector="RICHTMYER"))},
+        # nobody else makes them; this is what others would run their matrices on
+        "polynomial_lattice": {"QMCPy net": (large, qmcpy.DigitalNetB2(dims, seed=1))},
     }
     records = []
     # SciPy's Halton points have one permutation for each place, so "digit_permutation" is like for like
     scrambles: dict[str, tuple[str | None, ...]] = {
         "halton": ("digit_permutation", "owen", "linear"),
         "faure": ("owen", "digit_permutation"),
+        "polynomial_lattice": ("linear",),
     }
     pairs = [(name, theirs, scramble) for name, theirs in rivals.items() for scramble in scrambles.get(name, (None,))]
     for name, theirs, scramble in pairs:
@@ -202,6 +208,26 @@ def measure_nets(bench: Bench) -> list[Record]:
     return [*records, {"family": "niederreiter_xing (linear)", "dims": dims, "count": count, "rates": rates}]
 
 
+def measure_construction() -> Record:
+    """CPU seconds for generating vectors of many points, and how their errors compare with a published vector."""
+    dims, count = 100, 1 << 20
+    weights = [1 / j**2 for j in range(1, dims + 1)]
+    seconds = {}
+    start = time.process_time()
+    ours = points.construct_lattice(dims, count)
+    seconds["lattice"] = time.process_time() - start
+    for name, make, least in (
+        ("lattice from 2^10 on", points.construct_lattice, 1 << 10),
+        ("polynomial lattice", points.construct_polynomial_lattice, None),
+    ):
+        start = time.process_time()
+        make(dims, count, least=least)
+        seconds[name] = time.process_time() - start
+    published = [int(number) for number in qmcpy.Lattice(dims).gen_vec[0]]
+    ratio = lattice_error(ours, count, weights=weights) / lattice_error(published, count, weights=weights)
+    return {"dims": dims, "count": count, "seconds": seconds, "error ratio": ratio}
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, keep the record, write the tables."""
     parser = argparse.ArgumentParser(prog="python -m benches.points", description=__doc__)
@@ -218,6 +244,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     record["threads"] = [measure_threads(bench, dims, count) for dims, count in SHAPES[:2]]
     print("threads", file=sys.stderr)
     record["families"] = [measure_exact(bench), *measure_nets(bench), *measure_families(bench)]
+    record["construction"] = measure_construction()
     raw = HERE.parent / "out" / "bench-points.json"
     raw.parent.mkdir(exist_ok=True)
     raw.write_text(json.dumps(record, indent=1))

@@ -20,6 +20,7 @@ def test_the_report_is_a_pure_function_of_the_record() -> None:
         "sobol": [{"dims": 8, "count": 1 << 20, "rates": rates}, {"dims": 2, "count": 1 << 16, "rates": {}}],
         "threads": [{"dims": 8, "count": 1 << 20, "rates": threads}],
         "families": [{"family": "halton (owen)", "dims": 64, "count": 1 << 20, "rates": families}],
+        "construction": {"dims": 100, "count": 1 << 20, "seconds": {"lattice": 2.04}, "error ratio": 0.25},
     }
     text = to_markdown(record)
     assert text == to_markdown(record)
@@ -28,3 +29,5 @@ def test_the_report_is_a_pure_function_of_the_record() -> None:
     assert "| memory f64 | 2000 (2400) | – |" in text
     assert "| owen f64 | d = 8, n = 2^20 | 15 (20) | 25 (35) | 1.75 |" in text
     assert "| halton (owen) | d = 64, n = 2^20 | 80 (80) | SciPy: 4, QMCPy: 9 | 8.89 (8) |" in text
+    assert "CPU seconds for d = 100, n = 2^20" in text
+    assert "| lattice | 2.0 |" in text

@@ -124,6 +124,7 @@ FAMILIES = {
     "dynamics": list(smc.MODELS),
     "chains": list(smc.CHAINS),
     "resampling": list(smc.RESAMPLING),
+    "smoothers": list(smc.SMOOTHERS),
     "sorts": list(smc.SORTS),
     "samplers": _core.samplers(),
     "integrators": _core.integrators(),

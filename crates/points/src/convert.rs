@@ -16,11 +16,11 @@ pub(crate) use crate::unit::{Digits, Unit};
 /// ```
 #[inline]
 pub fn unit_f64(word: u64) -> f64 {
-    // The upper half of the word after 2^20, the next 21 bits after 1/2: additions of exact numbers, which all vector units
-    // have, where only the newest convert 64-bit integers.
+    // The upper half of the word after 2^20, the next 21 bits in their places after 2^-12: additions of exact numbers, which all
+    // vector units have, where only the newest convert 64-bit integers.
     let upper = f64::from_bits(word >> 32 | (1023 + 20) << 52);
-    let lower = f64::from_bits((word & 0xffff_ffff) >> 11 | (1023 - 1) << 52);
-    (upper - (f64::from(1 << 20) + 0.5)) + lower
+    let lower = f64::from_bits(word & 0xffff_f800 | (1023 - 12) << 52);
+    (upper - (f64::from(1 << 20) + 1.0 / 4096.0)) + lower
 }
 
 /// The upper 24 bits of a word as a number in [0, 1).

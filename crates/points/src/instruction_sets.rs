@@ -35,12 +35,12 @@ macro_rules! for_this_machine {
                 if crate::instruction_sets::has_avx512() {
                     #[allow(unsafe_code, reason = "the instruction set was checked the line before")]
                     // SAFETY: the features that `avx512` needs were found on this machine.
-                    return unsafe { avx512($($arg),*) };
+                    return unsafe { avx512 $(::<$generic>)? ($($arg),*) };
                 }
                 if crate::instruction_sets::has_avx2() {
                     #[allow(unsafe_code, reason = "the instruction set was checked the line before")]
                     // SAFETY: the feature that `avx2` needs was found on this machine.
-                    return unsafe { avx2($($arg),*) };
+                    return unsafe { avx2 $(::<$generic>)? ($($arg),*) };
                 }
             }
             $plain

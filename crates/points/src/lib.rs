@@ -75,6 +75,8 @@ pub mod stateless;
 #[cfg(feature = "std")]
 mod streaming;
 #[cfg(feature = "std")]
+mod tiles;
+#[cfg(feature = "std")]
 mod tower_field;
 #[cfg(feature = "std")]
 mod unit;

@@ -76,8 +76,8 @@ pub trait PointSet: Send + Sync {
     }
 }
 
-/// Coordinates converted at a time: 16 KiB, half of a first-level cache.
-const SCRATCH: usize = 2048;
+/// Coordinates converted at a time: 128 KiB, part of a second-level cache, so that beginning a fill costs little.
+const SCRATCH: usize = 1 << 14;
 
 /// Panics unless `places` hold exactly the coordinates of `rows`.
 pub(crate) fn check_length(rows: &Range<u64>, dims: usize, places: usize) {

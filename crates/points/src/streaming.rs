@@ -28,9 +28,10 @@ pub(crate) fn pays<T>(out: &[T]) -> bool {
     size_of_val(out) >= LARGE && cfg!(target_arch = "x86_64") && crate::instruction_sets::has_avx2()
 }
 
-/// An array that is written from its first place to its last.
+/// An array that is written from its first place to its last, past the caches if that pays.
 pub(crate) struct Stream<'a, T: Unit> {
     rest: &'a mut [T],
+    past: bool,
     /// Numbers that wait until their line is whole.
     waiting: Lanes<T>,
     /// Where the first of them is, and where the next will be.
@@ -41,8 +42,20 @@ pub(crate) struct Stream<'a, T: Unit> {
 impl<'a, T: Unit> Stream<'a, T> {
     /// All of `out`, whose first line may begin before it.
     pub(crate) fn new(out: &'a mut [T]) -> Self {
+        let past = pays(out);
+        Self::of(out, past)
+    }
+
+    /// The same, past the caches or not.
+    pub(crate) fn of(out: &'a mut [T], past: bool) -> Self {
         let first = (LANES - out.as_ptr().align_offset(LINE) % LANES) % LANES;
-        Self { rest: out, waiting: [T::default(); LANES], first, next: first }
+        Self { past, rest: out, waiting: [T::default(); LANES], first, next: first }
+    }
+
+    /// Whether whole lines go past the caches.
+    #[inline(always)]
+    pub(crate) fn past(&self) -> bool {
+        self.past
     }
 
     /// How many numbers are still to come.
@@ -89,19 +102,29 @@ impl<T: Unit> Drop for Stream<'_, T> {
     fn drop(&mut self) {
         self.flush();
         #[cfg(target_arch = "x86_64")]
+        if self.past {
+            Self::fence();
+        }
+    }
+}
+
+impl<T: Unit> Stream<'_, T> {
+    /// Other threads then see what was streamed.
+    #[cfg(target_arch = "x86_64")]
+    fn fence() {
         #[allow(unsafe_code, reason = "an instruction that every x86-64 machine has")]
-        // SAFETY: it belongs to SSE, which is part of x86-64. Other threads then see what was streamed.
+        // SAFETY: it belongs to SSE, which is part of x86-64.
         unsafe {
             std::arch::x86_64::_mm_sfence();
         }
     }
 }
 
-/// Writes a line past the caches, in vectors of `VECTOR` bytes; with 0 in the ordinary way.
+/// Writes a line `past` the caches, in vectors of `VECTOR` bytes; without any, or not past them, in the ordinary way.
 #[inline(always)]
-pub(crate) fn store<T: Unit, const VECTOR: usize>(line: &Lanes<T>, to: &mut Lanes<T>) {
+pub(crate) fn store<T: Unit, const VECTOR: usize>(past: bool, line: &Lanes<T>, to: &mut Lanes<T>) {
     #[cfg(target_arch = "x86_64")]
-    if VECTOR > 0 {
+    if VECTOR > 0 && past {
         use std::arch::x86_64::{_mm256_loadu_ps, _mm256_stream_ps, _mm512_loadu_ps, _mm512_stream_ps};
         assert!(to.as_ptr().addr().is_multiple_of(LINE), "lines begin at lines");
         let (from, to): (*const f32, *mut f32) = (line.as_ptr().cast(), to.as_mut_ptr().cast());

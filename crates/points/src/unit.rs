@@ -4,6 +4,7 @@ use std::ops::{BitXor, BitXorAssign};
 
 use crate::convert::{unit_f32, unit_f64};
 use crate::owen_hash as owen;
+use crate::streaming::Lanes;
 
 /// A floating-point number made of the first digits of a word, for loops in either precision; or these digits.
 pub(crate) trait Unit: Copy + Default + Send {
@@ -50,8 +51,8 @@ pub(crate) trait Digits: Copy + Default + Sync + Send + BitXor<Output = Self> + 
     fn reversed(self) -> Self;
     /// The two halves of an Owen key, for [`Digits::owen`].
     fn owen_key(seed: u64) -> (Self, Self);
-    /// The Owen hash of reversed digits.
-    fn owen(self, addend: Self, multiplier: Self) -> Self;
+    /// Replaces reversed digits by their Owen hash.
+    fn owen(words: &mut Lanes<Self>, addends: &Lanes<Self>, multipliers: &Lanes<Self>);
 }
 
 impl Digits for u64 {
@@ -68,8 +69,8 @@ impl Digits for u64 {
         owen::key_64(seed)
     }
     #[inline(always)]
-    fn owen(self, addend: Self, multiplier: Self) -> Self {
-        owen::keyed_64(self, addend, multiplier)
+    fn owen(words: &mut Lanes<Self>, addends: &Lanes<Self>, multipliers: &Lanes<Self>) {
+        owen::keyed_64_each(words, addends, multipliers);
     }
 }
 
@@ -88,7 +89,7 @@ impl Digits for u32 {
         (addend as Self, multiplier as Self)
     }
     #[inline(always)]
-    fn owen(self, addend: Self, multiplier: Self) -> Self {
-        owen::keyed_64_low(self, addend, multiplier)
+    fn owen(words: &mut Lanes<Self>, addends: &Lanes<Self>, multipliers: &Lanes<Self>) {
+        owen::keyed_64_low_each(words, addends, multipliers);
     }
 }

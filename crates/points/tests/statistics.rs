@@ -46,9 +46,9 @@ fn bits_of_the_scrambling_tree_are_fair_and_uncorrelated() {
         let word = if level == 0 { 0 } else { prefix << (64 - level) };
         1 - 2 * (nested_uniform_scramble_64(word, seed.bits64()) >> (63 - level) & 1) as i64
     };
-    // A sum of N fair signs stays within 5.5 √N but for one time in 2.6·10^7; there are 1,500 sums.
+    // A sum of N fair signs stays within 5.5 √N but for one time in 2.6·10^7; there are 2,650 sums.
     let bound = (5.5 * (SEEDS as f64).sqrt()) as i64;
-    for level in 0..30 {
+    for level in 0..53 {
         for pair in 0..25 {
             let mask = (1_u64 << level) - 1;
             let a = Seed::new(pair).split(20, 0).bits64() & mask;

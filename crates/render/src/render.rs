@@ -159,14 +159,16 @@ impl<'a> Job<'a> {
             let message = "without roulette, or when all survive it in the end, max_depth must be limited";
             return Err(Error::Settings(message.into()));
         }
+        let (sampler, samples) = (sampler::by_name(&settings.sampler)?, spp / replicates);
+        sampler.check(film.size, samples)?;
         Ok(Self {
             scene,
             sensor: scene.sensor(film.aspect())?,
             film,
             integrator: (integrator::by_name(&settings.integrator)?.build)(transport),
-            sampler: sampler::by_name(&settings.sampler)?,
+            sampler,
             seed: Seed::new(settings.seed),
-            samples: spp / replicates,
+            samples,
         })
     }
 
@@ -194,9 +196,9 @@ impl<'a> Job<'a> {
         for pixel in 0..tile.width * tile.height {
             let x = self.film.crop[0] + tile.x + pixel % tile.width;
             let y = self.film.crop[1] + tile.y + pixel / tile.width;
-            let seed = seed.pixel(x, y);
+            let (key, first) = self.sampler.pixel(seed, [x, y], self.samples);
             for index in 0..self.samples {
-                let (path, weight) = self.camera_path([x, y], seed, index);
+                let (path, weight) = self.camera_path([x, y], key, first + index);
                 wave.paths.push(path);
                 wave.places.push((pixel as usize, weight));
                 if wave.paths.len() == WAVE {

@@ -83,7 +83,8 @@ class Chains:
         Returns
         -------
         Estimate
-            NaN as the standard error of a single repetition. `diagnostics` has the means of the repetitions.
+            NaN as the standard error of a single repetition, and of chains that are not random. `diagnostics` has the
+            means of the repetitions.
 
         Raises
         ------
@@ -91,8 +92,9 @@ class Chains:
             If there is no such functional, the draws were not kept, or a value is not finite.
         """
         means = self._chain_means(functional)
-        groups = means.reshape(-1, self.points.coupled, *means.shape[1:]).mean(axis=1)
-        size = self.n * self.points.coupled
+        together = self.points.coupled if self.kernel.random else len(means)
+        groups = means.reshape(-1, together, *means.shape[1:]).mean(axis=1)
+        size = self.n * together
         return from_moments(
             ((float(size), Moments.of(groups)),),
             method=f"{self.kernel.name} driven by {self.points.name}",
@@ -122,7 +124,7 @@ class Chains:
             If the draws were not kept, or a value is not finite.
         """
         values = self._values(functional or (lambda x: x))
-        independent = self.points.independent_steps and self.points.coupled == 1
+        independent = self.kernel.random and self.points.independent_steps and self.points.coupled == 1
         return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent)
 
     def to_arviz(self) -> Any:

@@ -94,6 +94,8 @@ class Kernel:
 
     name: ClassVar[str]
     """Its name in the registry."""
+    random: ClassVar[bool] = True
+    """Whether chains of the same start differ, so that their spread is an error."""
 
     def dims(self, d: int) -> int:
         """How many uniform numbers a step in d dimensions takes at most; it gets all of them, needed or not."""

@@ -67,6 +67,7 @@ class NUTS:
     """
 
     name: ClassVar[str] = "nuts"
+    random: ClassVar[bool] = True
 
     log_density: LogDensity
     gradient: Gradient

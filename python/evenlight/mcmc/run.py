@@ -89,7 +89,9 @@ def run(
     """
     driving = IndependentNumbers() if points is None else points
     if not isinstance(driving, Driving):
-        raise TypeError(f"points must be a driving sequence of evenlight.mcmc, not {type(driving).__name__}")
+        raise TypeError(
+            f"points must be a driving sequence, not {type(driving).__name__}; Permuted(...) makes one of point sets"
+        )
     for name, functional in (functionals or {}).items():
         check_callable(f"functionals[{name!r}]", functional)
     positions = _starts(start, chains, driving.coupled)

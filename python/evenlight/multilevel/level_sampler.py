@@ -145,6 +145,7 @@ class MultiIndexSampler(Protocol):
     name: str
     max_level: tuple[int | None, int | None] = (None, None)
     exact: bool = False
+    """True if the finest level of every direction that has one is that of the quantity itself."""
     keyed: bool = False
 
     def dims(self, level: tuple[int, int]) -> int:

@@ -24,9 +24,9 @@ __all__ = ["multi_index"]
 
 Array = NDArray[np.float64]
 
-_PILOT = 256  # samples of each of the first pairs
+_PILOT = (256, 128, 64, 32)  # samples of the first pairs, by the sum of their levels
 _BEYOND = 24  # levels beyond the sampled ones whose bias is added up
-_FIRST: tuple[Pair, ...] = ((0, 0), (0, 1), (1, 0), (0, 2), (1, 1), (2, 0))
+_FIRST: tuple[Pair, ...] = tuple((i, total - i) for total in range(4) for i in range(total + 1))
 
 
 def multi_index(
@@ -69,9 +69,12 @@ def multi_index(
 
     Notes
     -----
-    The set of pairs grows one by one: of those whose predecessors are all there, the one whose mean is largest for the
-    root of variance times cost. Means and variances of pairs that are not sampled follow from a plane through the
+    The set of pairs grows one by one: of those whose predecessors are all there, the one whose mean is largest for what
+    it adds to the cost. Means and variances of pairs that are not sampled follow from a plane through the
     logarithms of those that are; the sum of such means is the bias. Samples are distributed as in `mlmc`.
+
+    The plane must be one: where differences do not fall evenly, as with the terms of a random field taken in by
+    doubling, errors at large tolerances were up to 4 times the tolerance. A small tolerance samples more pairs.
 
     Where mixed differences fall as products, the cost is that of the worse of both directions, up to logarithms.
 
@@ -124,7 +127,8 @@ class _Run:
         self._sampler, self._seed, self._goal = sampler, seed, goal
         self._levels: dict[Pair, Level] = {}
         for pair in _FIRST:
-            self._add(pair, _PILOT)
+            if pair[0] <= goal.max_level[0] and pair[1] <= goal.max_level[1]:
+                self._add(pair, _PILOT[sum(pair)])
         self._look()
 
     def reach(self) -> str:
@@ -137,7 +141,7 @@ class _Run:
             if more.any():
                 if not extend(levels, more, goal.max_cost - self._cost()):
                     return goal.too_expensive
-            elif best is None:
+            elif best is None or not goal.fits(goal.rmse, self._unreachable):
                 return "" if goal.fits(goal.rmse, self._bias) else goal.too_coarse
             elif not self._is_worth_it(best):
                 return ""
@@ -166,7 +170,7 @@ class _Run:
         self._levels[pair] = level
 
     def _look(self) -> None:
-        """Judge all pairs anew: their rates, and the bias, the sum of the means of all pairs that are not sampled."""
+        """Judge all pairs anew: their rates, and the bias: the means of all that are not sampled, or cannot be."""
         self._rows = {pair: level.row for pair, level in self._levels.items()}
         self._means, self._expected, self._rates = fit_planes(list(self._rows.values()))
         sizes = [max(pair[k] for pair in self._levels) + _BEYOND for k in (0, 1)]
@@ -174,7 +178,11 @@ class _Run:
             sizes = [min(size, last + 1) for size, last in zip(sizes, self._goal.max_level, strict=True)]
         beyond = self._means.at(*np.indices(sizes))
         beyond[tuple(np.array(list(self._levels)).T)] = 0.0
-        self._bias = beyond.sum(axis=(0, 1)).reshape(np.shape(self._rows[0, 0].mean))
+        shape = np.shape(self._rows[0, 0].mean)
+        self._bias = beyond.sum(axis=(0, 1)).reshape(shape)
+        first, second = np.indices(sizes)
+        past = (first > self._goal.max_level[0]) | (second > self._goal.max_level[1])
+        self._unreachable = beyond[past].sum(axis=0).reshape(shape)
 
     def _compared(self, row: LevelRow) -> LevelRow:
         i, j = row.level
@@ -195,7 +203,7 @@ class _Run:
         return variances
 
     def _best(self) -> Pair | None:
-        """The pair to add: the largest mean for the root of variance times cost, all of its predecessors there."""
+        """The pair to add: the largest mean for what it adds to the cost, all of its predecessors there."""
         outside = {(i + di, j + dj) for i, j in self._levels for di, dj in ((1, 0), (0, 1))} - set(self._levels)
         first, second = self._goal.max_level
         candidates = [
@@ -203,20 +211,29 @@ class _Run:
             for i, j in sorted(outside)
             if i <= first and j <= second and all(p in self._levels for p in ((i - 1, j), (i, j - 1)) if min(p) >= 0)
         ]
-        return max(candidates, key=lambda pair: float(np.max(self._means.at(*pair) / self._root(pair))), default=None)
+        roots = self._roots()
+        return max(
+            candidates, key=lambda pair: float(np.max(self._means.at(*pair) / self._price(pair, roots))), default=None
+        )
 
-    def _root(self, pair: Pair) -> Any:
-        """The root of variance times cost, which is what a pair adds to the root of the whole cost."""
-        return np.sqrt(np.maximum(self._expected.at(*pair), 1e-300) * self._sampler.cost(pair))
+    def _roots(self) -> Any:
+        """The sum over pairs of roots of variance times cost, whose square over the variance is the whole cost."""
+        costs = np.array([[row.cost] for row in self._rows.values()])
+        return np.sqrt(self._variances() * costs).sum(axis=0)
+
+    def _price(self, pair: Pair, roots: Any) -> Any:
+        """What a pair adds to the whole cost; never less than a few samples of it."""
+        cost = self._sampler.cost(pair)
+        grown = roots + np.sqrt(np.maximum(self._expected.at(*pair), 0.0) * cost)
+        variance = self._goal.variance(self._goal.rmse, np.atleast_1d(self._bias))
+        return (grown**2 - roots**2) / variance + LEAST * cost
 
     def _is_worth_it(self, pair: Pair) -> bool:
-        """Whether the bias is too large, or the whole is cheaper with the pair."""
-        goal, bias = self._goal, np.atleast_1d(self._bias)
+        """Whether the bias is too large, or the whole is cheaper with the pair, as it leaves more to the variance."""
+        goal, bias, roots = self._goal, np.atleast_1d(self._bias), self._roots()
         if not goal.fits(goal.rmse, bias):
             return True
-        costs = np.array([[row.cost] for row in self._rows.values()])
-        roots = np.sqrt(self._variances() * costs).sum(axis=0)
         now = roots**2 / goal.variance(goal.rmse, bias)
-        then = (roots + self._root(pair)) ** 2 / goal.variance(goal.rmse, bias - self._means.at(*pair))
-        overhead: float = LEAST * self._sampler.cost(pair)
-        return float(np.max(then)) + overhead < float(np.max(now))
+        then = now + self._price(pair, roots)
+        then *= goal.variance(goal.rmse, bias) / goal.variance(goal.rmse, bias - self._means.at(*pair))
+        return float(np.max(then)) < float(np.max(now))

@@ -54,8 +54,8 @@ def construct_lattice(
 
     Notes
     -----
-    In time d n log n and memory for n numbers: measured, 2 seconds for d = 100 and n = 2^20, 4 with ``least=1024``;
-    a prime takes twice as long. The same vector on every machine.
+    In time d n log n and memory for n numbers: measured, 1.5 seconds for d = 100 and n = 2^20, 2.8 with ``least=1024``;
+    a prime takes 5.3. The same vector on every machine.
 
     References: D. Nuyens and R. Cools, Math. Comp. 75, 903-920 (2006); R. Cools, F. Y. Kuo and D. Nuyens, SIAM J. Sci.
     Comput. 28, 2162-2188 (2006).
@@ -107,7 +107,7 @@ def construct_polynomial_lattice(
 
     Notes
     -----
-    In time d n log n, as for `construct_lattice`.
+    In time d n log n: measured, 4.4 seconds for d = 100 and n = 2^20.
 
     References: J. Dick, F. Y. Kuo, F. Pillichshammer and I. H. Sloan, Math. Comp. 74, 1895-1921 (2005); J. Dick and F.
     Pillichshammer, J. Complexity 21, 149-195 (2005).
@@ -158,7 +158,7 @@ def construct_korobov(
 
     Notes
     -----
-    In time n d `candidates`: measured, 2 nanoseconds times that.
+    In time n d `candidates`: measured, 2 to 5 nanoseconds times that.
 
     Examples
     --------

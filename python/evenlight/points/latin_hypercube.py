@@ -29,7 +29,7 @@ class LatinHypercube(Design):
     Notes
     -----
     The permutations are computed, not stored: n points take no memory, and any of them costs the same,
-    some 2 nanoseconds per coordinate with AVX-512, 4.5 with AVX2.
+    measured 4.2 nanoseconds per coordinate with AVX2.
 
     References: M. D. McKay, R. J. Beckman and W. J. Conover, Technometrics 21, 239-245 (1979); M. Stein,
     Technometrics 29, 143-151 (1987).

@@ -9,9 +9,8 @@ class PolynomialLattice(Engine):
     """Polynomial lattices in base 2, extensible: the first 2^m rows are a good one for every m.
 
     Row i is the radical inverse of i in base 2 times a vector of polynomials over {0, 1}, a product without carry,
-    modulo 1. A digital net: take powers of 2 of rows. For problems whose weights are known: polynomials made for them
-    and for one number of points by `construct_polynomial_lattice` beat `Sobol` in their criterion; the default ones, a
-    compromise for all numbers of points, do not.
+    modulo 1. A digital net: take powers of 2 of rows. For problems whose weights are known, and one number of rows:
+    `construct_polynomial_lattice` makes polynomials for them.
 
     Parameters
     ----------
@@ -37,7 +36,14 @@ class PolynomialLattice(Engine):
 
     Notes
     -----
-    As fast as `Sobol`, whose engine it shares. References: H. Niederreiter, Czechoslovak Math. J. 42, 143-166 (1992);
+    The squared error of `evenlight.quality.digital_net_error` with weights 1 / j² and 2^8 to 2^14 rows, against that of
+    `Sobol`: with polynomials for as many rows equal in 2 dimensions, 1.02 to 1.13 times in 5, 0.82 to 1.01 times in 20;
+    with the default ones 1.1 to 1.9 times. That is the price of good rows for every m: already in two dimensions, no
+    polynomial has t = 0 for all of them, as the first two coordinates of `Sobol` have.
+
+    As fast as `Sobol`, whose engine it shares.
+
+    References: H. Niederreiter, Czechoslovak Math. J. 42, 143-166 (1992);
     J. Dick, Math. Comp. 76, 2077-2085 (2007); J. Dick and F. Pillichshammer, *Digital nets and sequences* (2010).
 
     Examples

@@ -41,8 +41,8 @@ class Sobol(Engine):
 
     Notes
     -----
-    Measured: 0.6 nanoseconds per coordinate with AVX-512, 2.7 with AVX2; setting up takes 70
-    microseconds, in 1,024 dimensions 0.6 milliseconds. "linear" and "digital_shift" take 0.2, "owen_exact" 12.
+    Measured with AVX2: 0.9 nanoseconds per coordinate, 0.4 in single precision; "linear" and "digital_shift" take 0.3,
+    "owen_exact" 32. Setting up takes 70 microseconds, in 1,024 dimensions 0.6 milliseconds.
 
     References: I. M. Sobol', USSR Comput. Math. Math. Phys. 7(4), 86-112 (1967); S. Joe and
     F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635-2654 (2008); A. B. Owen, *Randomly permuted (t,m,s)-nets and

@@ -12,13 +12,17 @@ from .log_evidence import LogEvidence
 from .models import MODELS, LinearGaussian, StochasticVolatility
 from .optimal_proposal import OptimalProposal
 from .resampling import RESAMPLING, resample
+from .smooth import smooth
+from .smoothers import SMOOTHERS
 from .sorts import SORTS, Sort
 from .state_space import Proposal, StateSpaceModel, normals
+from .tempering import temper
 
 __all__ = [
     "CHAINS",
     "MODELS",
     "RESAMPLING",
+    "SMOOTHERS",
     "SORTS",
     "AsianOptionChain",
     "AutoregressiveChain",
@@ -37,4 +41,6 @@ __all__ = [
     "kalman",
     "normals",
     "resample",
+    "smooth",
+    "temper",
 ]

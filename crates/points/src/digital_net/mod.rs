@@ -7,18 +7,19 @@
 //! coordinates can be scrambled and converted at a time, whatever the dimension.
 
 pub mod interlaced;
-mod kernels;
+pub(crate) mod kernels;
 mod tables;
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use self::kernels::Period;
+use self::kernels::{Added, Owen, Shifted};
 use self::tables::Tables;
-use crate::convert::{Unit, unit_f64};
+use crate::convert::{Digits, Unit, unit_f64};
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
-use crate::streaming::{self, LANES, Stream};
+use crate::streaming::{LANES, Stream};
+use crate::tiles::{Combine, write};
 use crate::{PointSet, Seed};
 
 /// The digits of a coordinate, and of an index.
@@ -128,26 +129,27 @@ impl DigitalNet {
             return;
         }
         match self.randomization {
-            Randomization::OwenExact => return self.fill_by_word(rows, out, kernels::owen_exact),
-            Randomization::Shift => return self.fill_by_word(rows, out, kernels::added),
-            _ => {}
+            Randomization::Owen => self.fill_with::<Owen<T>>(rows, out),
+            Randomization::OwenExact => self.fill_node_by_node(rows, out),
+            Randomization::Shift => self.fill_with::<Added<T>>(rows, out),
+            _ => self.fill_with::<Shifted<T>>(rows, out),
         }
-        let tables = Tables::<T::Digits>::new(self, &rows);
-        let owen = self.randomization == Randomization::Owen;
-        if streaming::pays(out) {
-            let kernel = if owen { kernels::owen_past } else { kernels::shifted_past };
-            let mut out = Stream::new(out);
-            tables.for_each_block(rows, |tile, period| kernel(tile, period, &mut out));
-        } else {
-            let kernel = if owen { kernels::owen } else { kernels::shifted };
-            let mut rest = out;
-            tables.for_each_block(rows, |tile, period| {
-                let words = (tile.len() - LANES).min(rest.len());
-                let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
-                kernel(tile, period, part);
-                rest = later;
-            });
-        }
+    }
+
+    fn fill_with<C: Combine<Word: Digits>>(&self, rows: Range<u64>, out: &mut [C::Number]) {
+        let mut out = Stream::new(out);
+        let tables = Tables::<C::Word>::new(self, &rows);
+        tables.for_each_block(rows, |tile, period| write::<C>(tile, period, &mut out));
+    }
+
+    fn fill_node_by_node<T: Unit>(&self, rows: Range<u64>, out: &mut [T]) {
+        let mut rest = out;
+        Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
+            let words = (tile.len() - LANES).min(rest.len());
+            let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
+            kernels::owen_exact(tile, period, part);
+            rest = later;
+        });
     }
 
     /// Gives the first 32 digits of all coordinates of some rows after the other to `take`.
@@ -169,26 +171,12 @@ impl DigitalNet {
         } else {
             Tables::<u32>::new(self, &rows).for_each_block(rows, |tile, period| {
                 places(tile.len(), &mut made);
-                kernels::owen(tile, period, &mut made);
+                write::<Owen<u32>>(tile, period, &mut Stream::new(&mut made));
                 take(&made);
             });
         }
     }
-
-    /// The randomizations that take all digits of a word, whatever the precision of the result.
-    fn fill_by_word<T: Unit>(&self, rows: Range<u64>, out: &mut [T], kernel: WordKernel<T>) {
-        let mut rest = out;
-        Tables::<u64>::new(self, &rows).for_each_block(rows, |tile, period| {
-            let words = (tile.len() - LANES).min(rest.len());
-            let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
-            kernel(tile, period, part);
-            rest = later;
-        });
-    }
 }
-
-/// Makes numbers from the words of a tile and what belongs to them.
-type WordKernel<T> = fn(tile: &[u64], period: Period<'_, u64>, out: &mut [T]);
 
 /// Columns with the linear part of an affine randomization applied, and its shifts.
 fn built_in(plain: &[u64], keys: &[Seed], apply: fn(u64, Seed) -> u64) -> (Arc<[u64]>, Vec<u64>) {

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::DigitalNet;
-use super::kernels::Period;
 use crate::convert::Digits;
 use crate::scramble::Randomization;
 use crate::streaming::LANES;
+use crate::tiles::Period;
 
 /// Words of a tile: at most half of a first-level cache.
 const TILE_WORDS: usize = 2048;

@@ -12,17 +12,19 @@
 //! [`PointSet::fill`] tabulates the words of the first rows as a *tile* that stays in cache. Every aligned block of rows
 //! is the tile plus one word for each coordinate.
 
-mod kernels;
+pub(crate) mod kernels;
 mod tables;
 
 use std::ops::Range;
 use std::sync::Arc;
 
+use self::kernels::{Folded, Summed};
 use self::tables::Tables;
 use crate::convert::{Unit, unit_f64};
 use crate::point_set::check_length;
 use crate::scramble::Randomization;
-use crate::streaming::{self, LANES, Stream};
+use crate::streaming::Stream;
+use crate::tiles::{Combine, write};
 use crate::{PointSet, Seed};
 
 /// What the words of natural order are too small by, at most: one unit for each bit of the index.
@@ -126,22 +128,16 @@ impl ModularPoints {
         if out.is_empty() {
             return;
         }
-        let tables = Tables::new(self, &rows);
-        let fold = self.randomization == Randomization::ShiftTent;
-        if streaming::pays(out) {
-            let kernel = if fold { kernels::folded_past } else { kernels::summed_past };
-            let mut out = Stream::new(out);
-            tables.for_each_block(rows, |tile, period| kernel(tile, period, &mut out));
+        if self.randomization == Randomization::ShiftTent {
+            self.fill_with::<Folded<T>>(rows, out);
         } else {
-            let kernel = if fold { kernels::folded } else { kernels::summed };
-            let mut rest = out;
-            tables.for_each_block(rows, |tile, period| {
-                let words = (tile.len() - LANES).min(rest.len());
-                let (part, later) = std::mem::take(&mut rest).split_at_mut(words);
-                kernel(tile, period, part);
-                rest = later;
-            });
+            self.fill_with::<Summed<T>>(rows, out);
         }
+    }
+
+    fn fill_with<C: Combine<Word = u64>>(&self, rows: Range<u64>, out: &mut [C::Number]) {
+        let mut out = Stream::new(out);
+        Tables::new(self, &rows).for_each_block(rows, |tile, period| write::<C>(tile, period, &mut out));
     }
 }
 

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::ModularPoints;
-use super::kernels::Period;
 use crate::streaming::LANES;
+use crate::tiles::Period;
 
 /// Words of a tile: at most half of a first-level cache.
 const TILE_WORDS: usize = 2048;
@@ -44,14 +44,14 @@ impl<'a> Tables<'a> {
 
     /// Calls `make` for every block that holds some of the rows: with the words of the block from the first row
     /// on, followed by [`LANES`] more, and with what is to be added to them.
-    pub(super) fn for_each_block(&self, rows: Range<u64>, mut make: impl FnMut(&[u64], Period<'_>)) {
+    pub(super) fn for_each_block(&self, rows: Range<u64>, mut make: impl FnMut(&[u64], Period<'_, u64>)) {
         let mut block = rows.start >> self.tile_bits;
         let last = (rows.end - 1) >> self.tile_bits;
         let mut offsets = self.repeated(&self.points.row(block << self.tile_bits));
         let skipped = (rows.start - (block << self.tile_bits)) as usize;
         let mut tile = &self.tile[skipped * self.points.keys.len()..];
         loop {
-            make(tile, Period { words: self.period, offsets: &offsets });
+            make(tile, Period { words: self.period, offsets: &offsets, keys: [&[]; 2] });
             if block == last {
                 return;
             }

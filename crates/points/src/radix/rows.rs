@@ -40,7 +40,7 @@ fn past_caches_body<T: Unit, const VECTOR: usize>(rows: &[T], out: &mut Stream<'
     write_part(begun, out);
     let (lines, rest) = rows.as_chunks();
     for (line, to) in lines.iter().zip(out.take_lines(lines.len())) {
-        store::<T, VECTOR>(line, to);
+        store::<T, VECTOR>(true, line, to);
     }
     write_part(rest, out);
 }

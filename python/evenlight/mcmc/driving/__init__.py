@@ -1,4 +1,8 @@
-"""Driving sequences: the uniform numbers that chains are driven by. One sequence, one file."""
+"""Driving sequences: the uniform numbers that chains are driven by. One sequence, one file.
+
+`LFSR`, `LCG` and `Permuted` of ever more steps are rows of (weakly) completely uniformly distributed triangular
+arrays; what is proven of chains so driven is said of `LFSR`. `Antithetic` and `Stratified` couple chains.
+"""
 
 from .antithetic import Antithetic
 from .independent import IndependentNumbers

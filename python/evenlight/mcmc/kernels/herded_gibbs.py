@@ -31,7 +31,7 @@ class HerdedGibbs(Kernel):
     For each variable and each configuration of the others, a running sum of its conditional probability decides: 1 when
     the sum passes 1. On fully connected models the frequencies of all configurations converge as 1/T [1]_; on sparser
     ones a limit may be wrong, which is why the others' configuration is always kept as a whole. All chains of the same
-    start are the same chain, and standard errors over chains mean nothing.
+    start are the same chain, so that estimates have no standard error.
 
     Parameters
     ----------
@@ -60,6 +60,7 @@ class HerdedGibbs(Kernel):
     """
 
     name: ClassVar[str] = "herded_gibbs"
+    random: ClassVar[bool] = False
 
     conditional: Callable[[Any, int], Any]
 

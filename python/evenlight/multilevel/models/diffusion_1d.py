@@ -154,6 +154,7 @@ class IndexedDiffusion1D(MixedDifference):
         self.name = f"indexed_diffusion_1d {type(self.field).__name__}"
         doublings = (self.field.terms // self.first_terms).bit_length() - 1
         self.max_level = (None, doublings)
+        self.exact = self.first_terms << doublings == self.field.terms
 
     def dims(self, level: tuple[int, int]) -> int:
         """Terms of the field."""
