@@ -65,13 +65,13 @@ fn relaxed<'py>(
 
 /// The values of a dither mask: rows and columns of each channel.
 #[pyfunction]
-fn dither_planes<'py>(
-    py: Python<'py>,
+fn dither_planes(
+    py: Python<'_>,
     shape: (usize, usize, usize),
     tries: u32,
     seed: u64,
     workers: NonZeroUsize,
-) -> PyResult<Bound<'py, PyArray3<f64>>> {
+) -> PyResult<Bound<'_, PyArray3<f64>>> {
     let (rows, columns, channels) = shape;
     let make = || vector_mask::planes([rows, columns], channels, tries, Seed::new(seed), workers);
     let planes = py.detach(make).map_err(raise)?;
