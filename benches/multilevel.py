@@ -89,7 +89,7 @@ def evenly_spread(tolerances: Iterable[float] = (1e-2, 1e-3, 1e-4)) -> None:
     print("| tolerance | mlmc | mlqmc | ratio |\n|---|---|---|---|")
     cost = 0.0
     for rmse in tolerances:
-        if rmse >= 5e-4:
+        if rmse >= 5e-3:
             cost = mlmc(GeometricBrownianMotion("asian", "exact"), rmse=rmse, seed=1).cost * rmse**2
         smooth = GeometricBrownianMotion("asian", "exact", construction="pca", first_steps=2)
         even = mlqmc(smooth, rmse=rmse, seed=1).cost

@@ -44,6 +44,7 @@ SPECIAL_CASES = {
     ("halton", "independent"),  # beyond the last prime
     ("orthographic", "perspective"),  # the same clip planes
     ("thinlens", "perspective"),  # with a lens
+    ("zsobol", "sobol"),  # with one sequence for all pixels
 }
 
 

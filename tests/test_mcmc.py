@@ -186,10 +186,10 @@ def test_the_edge_of_a_target_is_respected(kernel: Any) -> None:
 def test_kernels_forget_where_they_start(name: str) -> None:
     """Means of 64 chains within 5 standard errors: a false alarm in 50,000 for each of 4 functions."""
     kernel = CASES[name].kernel
-    chains = mcmc.run(kernel, [1.5, 1.0], n=1000, chains=64, burn_in=200, seed=3)
+    chains = mcmc.run(kernel, [1.5, 1.0], n=600, chains=64, burn_in=150, seed=3)
     estimate = chains.estimate(lambda x: np.concatenate([f := CASES[name].from_target(x), f**2], axis=1))
     assert (np.abs(estimate.value - [0, 0, 1, 1]) < 5 * estimate.standard_error).all()
-    assert (estimate.standard_error < 0.1).all()
+    assert (estimate.standard_error < 0.12).all()
     assert 0.1 < chains.acceptance.mean() <= 1
 
 
@@ -336,10 +336,10 @@ def test_tempering_swaps_and_finds_both_modes() -> None:
         return np.logaddexp(-0.5 * (x[:, 0] - 8) ** 2, np.log(3) - 0.5 * (x[:, 0] + 8) ** 2)
 
     kernel = ParallelTempering(modes, [1, 0.3, 0.1, 0.03], lambda f, beta: RandomWalk(f, scale=2 / beta**0.5))
-    chains = mcmc.run(kernel, [8.0], n=2000, chains=32, burn_in=500, seed=1)
+    chains = mcmc.run(kernel, [8.0], n=1000, chains=32, burn_in=300, seed=1)
     estimate = chains.estimate(lambda x: x[:, 0] > 0)
     assert abs(estimate.value - 0.25) < 4.5 * estimate.standard_error < 0.2
     swaps = chains.info["swaps"]
-    assert swaps.shape == (32, 2000, 3)
+    assert swaps.shape == (32, 1000, 3)
     assert np.isnan(swaps[:, 0]).tolist() == [[False, True, False]] * 32
     assert np.isnan(swaps[:, 1]).tolist() == [[True, False, True]] * 32

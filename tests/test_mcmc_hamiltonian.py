@@ -134,4 +134,4 @@ def test_hmc_on_a_narrow_normal() -> None:
 
 
 def test_nuts_on_a_narrow_normal() -> None:
-    check_moments(NUTS(*NARROW).run([[1.0, 0.9], [-1.0, -1.1]], n=1500, chains=4, warm_up=300, seed=2))
+    check_moments(NUTS(*NARROW).run([[1.0, 0.9], [-1.0, -1.1]], n=1200, chains=3, warm_up=250, seed=2))

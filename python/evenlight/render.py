@@ -132,7 +132,8 @@ def render(  # every argument is one setting; the settings are the interface
     integrator : str
         How light paths are made: a name in the list of `evenlight render --help`.
     sampler : str
-        Where the paths' random numbers come from: `"sobol"` (Owen-scrambled), `"halton"`, `"independent"`.
+        Where the paths' random numbers come from: `"sobol"` (Owen-scrambled), `"halton"`, `"independent"`; of
+        `"zsobol"` the errors of neighboring pixels cancel, so that a blur leaves less of them.
     spp : int
         Samples per pixel, the total over all replicates: a multiple of `replicates`. Powers of two per
         replicate suit `"sobol"` best.

@@ -2,9 +2,9 @@
 
 use std::num::NonZeroUsize;
 
-use evenlight_points::blue_noise::{self, Request, gaussian, pixel_order, void_and_cluster};
+use evenlight_points::blue_noise::{self, Request, gaussian, pixel_order, vector_mask};
 use evenlight_points::{Error, Seed};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(available_blue_noise, module)?)?;
     module.add_function(wrap_pyfunction!(blue_noise_points, module)?)?;
-    module.add_function(wrap_pyfunction!(dither_ranks, module)?)?;
+    module.add_function(wrap_pyfunction!(dither_planes, module)?)?;
     module.add_function(wrap_pyfunction!(pixel_places, module)?)?;
     module.add_function(wrap_pyfunction!(relaxed, module)?)
 }
@@ -63,16 +63,19 @@ fn relaxed<'py>(
     PyArray1::from_vec(py, points).reshape(shape)
 }
 
-/// The rank of each pixel of a dither mask.
+/// The values of a dither mask: rows and columns of each channel.
 #[pyfunction]
-fn dither_ranks<'py>(
+fn dither_planes<'py>(
     py: Python<'py>,
-    shape: (usize, usize),
+    shape: (usize, usize, usize),
+    tries: u32,
     seed: u64,
-) -> PyResult<Bound<'py, PyArray2<u32>>> {
-    let (rows, columns) = shape;
-    let ranks = py.detach(|| void_and_cluster::ranks(rows, columns, Seed::new(seed))).map_err(raise)?;
-    PyArray1::from_vec(py, ranks).reshape([rows, columns])
+    workers: NonZeroUsize,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let (rows, columns, channels) = shape;
+    let make = || vector_mask::planes([rows, columns], channels, tries, Seed::new(seed), workers);
+    let planes = py.detach(make).map_err(raise)?;
+    PyArray1::from_vec(py, planes).reshape([channels, rows, columns])
 }
 
 /// The place of each pixel in a sequence for the whole image.

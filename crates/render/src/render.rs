@@ -196,14 +196,16 @@ impl<'a> Job<'a> {
             mis: settings.mis,
             ..scene.transport
         };
+        let (sampler, samples) = (sampler::by_name(&settings.sampler)?, spp / replicates);
+        sampler.check(film.size, samples)?;
         Ok(Self {
             scene,
             sensor: scene.sensor(film.aspect())?,
             film,
             integrator: (integrator::by_name(&settings.integrator)?.build)(transport),
-            sampler: sampler::by_name(&settings.sampler)?,
+            sampler,
             seed: Seed::new(settings.seed),
-            samples: spp / replicates,
+            samples,
         })
     }
 
@@ -214,9 +216,9 @@ impl<'a> Job<'a> {
         for pixel in 0..wave.sums.len() {
             let x = self.film.crop[0] + tile.x + pixel as u32 % tile.width;
             let y = self.film.crop[1] + tile.y + pixel as u32 / tile.width;
-            let seed = seed.pixel(x, y);
+            let (key, first) = self.sampler.pixel(seed, [x, y], self.samples);
             for index in 0..self.samples {
-                let (path, weight) = self.camera_path([x, y], seed, index);
+                let (path, weight) = self.camera_path([x, y], key, first + index);
                 wave.paths.push(path);
                 wave.places.push((pixel, weight));
                 if wave.paths.len() == WAVE {

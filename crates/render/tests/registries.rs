@@ -26,7 +26,7 @@ fn families() -> Vec<Family> {
             "points/src/blue_noise",
             names!(blue_noise::ALL),
             // masks and pixels are no points
-            &["decay", "pixel_order", "torus", "void_and_cluster"],
+            &["decay", "pixel_order", "torus", "vector_mask", "void_and_cluster"],
         ),
         (
             "points/src/warp",

@@ -44,7 +44,7 @@ fn all_bits(film: &Film) -> Vec<u32> {
 fn any_number_of_threads_gives_the_same_bits() {
     // no multiple of a tile
     let scene = room(&size(37, 21));
-    for sampler in ["independent", "sobol", "halton"] {
+    for sampler in ["independent", "sobol", "halton", "zsobol"] {
         let base = Settings { sampler: sampler.into(), ..settings() };
         let one = all_bits(&picture(&scene, &base));
         for threads in [0, 2, 5, 64] {

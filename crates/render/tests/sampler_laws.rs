@@ -157,6 +157,28 @@ fn pairs_of_sobol_are_nets_in_base_two() {
     }
 }
 
+/// What pixels of a square share: eight rows of eight with two samples each are 128 points of a net, in each pair.
+#[test]
+fn squares_of_pixels_share_nets_of_zsobol() {
+    let zsobol = sampler::by_name("zsobol").expect("a known name");
+    let replicate = Seed::new(4).replicate(1);
+    for (pair, left, top) in [(0, 0, 0), (1, 8, 16), (5, 1024, 40)] {
+        let mut points = Vec::new();
+        for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (left + x, top + y))) {
+            let (key, first) = zsobol.pixel(replicate, [x, y], 2);
+            points.extend(run::<2>(zsobol, key, first..first + 2, 2 * pair));
+        }
+        for first in 0..=7 {
+            assert!(fills_boxes(&points, 2, [first, 7 - first]), "{pair} {left} {top} {first}");
+        }
+    }
+    let (a, b) = (zsobol.pixel(replicate, [65_535, 0], 1).1, zsobol.pixel(replicate, [0, 65_535], 1).1);
+    assert_eq!([a, b], [0x5555_5555, 0xaaaa_aaaa]);
+    assert!(zsobol.check([65_536, 10], 1).is_ok());
+    let message = zsobol.check([65_536, 10], 2).expect_err("too many samples").to_string();
+    assert!(message.contains("65536 x 10 pixels with 2 samples"), "{message}");
+}
+
 #[test]
 fn quadruples_of_sobol_are_nets_in_base_four() {
     let sobol = sampler::by_name("sobol").expect("a known name");

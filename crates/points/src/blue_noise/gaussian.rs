@@ -9,7 +9,7 @@ use std::num::NonZeroUsize;
 
 use super::decay::decay;
 use super::torus::{Buckets, squared_distance};
-use super::{Entry, MOST_DIMS, Request, uniform};
+use super::{Entry, MOST_DIMS, Request, cloud};
 use crate::Error;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -31,8 +31,7 @@ const REACH: f64 = 5.0;
 const LEAST: usize = 1 << 10;
 
 fn points(request: &Request) -> Vec<f64> {
-    let numbers = (request.n * request.dims) as u64;
-    let mut x: Vec<f64> = uniform(request.seed, 0..numbers).collect();
+    let mut x = cloud(request, request.n);
     descend(&mut x, request.dims, request.effort, request.workers);
     x
 }

@@ -4,6 +4,7 @@
 //! beginning is as well spread as a set of its own. Each says what its effort is counted in. Besides the family there are
 //!
 //! * [`void_and_cluster`]: dither masks, which are orders of the pixels of a torus;
+//! * [`vector_mask`]: masks of several channels, for what depends on all of them together;
 //! * [`pixel_order`]: the places of pixels in one sequence for a whole image, so that errors are blue on the screen.
 //!
 //! All is a function of the seed: the same bits with any number of threads.
@@ -16,12 +17,15 @@ pub mod pixel_order;
 pub mod poisson_disk;
 pub mod sample_elimination;
 mod torus;
+pub mod vector_mask;
 pub mod void_and_cluster;
 
 use std::num::NonZeroUsize;
 
 use crate::convert::unit_f64;
 use crate::seed::counted;
+use crate::warp::curve::sort::{Frame, order};
+use crate::warp::curve::{Grid, named};
 use crate::{Error, Seed};
 
 /// The most dimensions.
@@ -96,6 +100,16 @@ pub fn points(name: &str, request: &Request) -> Result<Vec<f64>, Error> {
         )));
     }
     Ok((entry.points)(request))
+}
+
+/// Independent points along the Morton curve, so that those near each other are near in memory.
+fn cloud(request: &Request, count: usize) -> Vec<f64> {
+    let dims = request.dims;
+    let x: Vec<f64> = uniform(request.seed, 0..(count * dims) as u64).collect();
+    let (curve, grid) = (named("morton").expect("a curve"), Grid::finest(dims));
+    let frame = Frame::new(grid, &vec![0.0; dims], &vec![1.0; dims]);
+    let places = order(curve, grid, &frame, &x, request.workers);
+    places.into_iter().flat_map(|place| &x[place as usize * dims..][..dims]).copied().collect()
 }
 
 /// Independent uniform numbers, each a function of its place.

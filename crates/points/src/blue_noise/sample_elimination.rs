@@ -10,7 +10,7 @@
 use std::collections::BinaryHeap;
 
 use super::torus::{Buckets, squared_distance};
-use super::{Entry, MOST_DIMS, Request, uniform};
+use super::{Entry, MOST_DIMS, Request};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sample_elimination",
@@ -22,9 +22,10 @@ pub(super) const ENTRY: Entry = Entry {
 
 fn points(request: &Request) -> Vec<f64> {
     let (n, dims) = (request.n, request.dims);
-    let pool: Vec<f64> = uniform(request.seed, 0..(n * request.effort as usize * dims) as u64).collect();
+    let count = n * request.effort as usize;
+    let pool = super::cloud(request, count);
     let cloud = Cloud { x: &pool, dims };
-    let (mut kept, _) = cloud.eliminate((0..(n * request.effort as usize) as u32).collect(), n);
+    let (mut kept, _) = cloud.eliminate((0..count as u32).collect(), n);
     let mut order = Vec::with_capacity(n);
     while kept.len() > 1 {
         let half = kept.len() / 2;

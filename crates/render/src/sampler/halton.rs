@@ -10,12 +10,13 @@ use std::sync::LazyLock;
 
 use evenlight_points::Seed;
 
-use crate::sampler::{BLOCK, Entry, GOLDEN, independent, mix, unit_f32};
+use crate::sampler::{BLOCK, Entry, GOLDEN, Sharing, independent, mix, unit_f32};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "halton",
     cite: "Halton 1960, Numer. Math. 2; Owen 1995; Matousek 1998, J. Complexity 14",
     base: None,
+    sharing: Sharing::Pixel,
     fill,
 };
 

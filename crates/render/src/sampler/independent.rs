@@ -2,12 +2,13 @@
 
 use evenlight_points::Seed;
 
-use crate::sampler::{BLOCK, Entry, GOLDEN, mix, unit_f32};
+use crate::sampler::{BLOCK, Entry, GOLDEN, Sharing, mix, unit_f32};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "independent",
     cite: "Metropolis & Ulam 1949, The Monte Carlo Method, JASA 44",
     base: None,
+    sharing: Sharing::Pixel,
     fill,
 };
 

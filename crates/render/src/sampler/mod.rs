@@ -14,6 +14,7 @@ use crate::{Error, Result};
 pub mod halton;
 pub mod independent;
 pub mod sobol;
+pub mod zsobol;
 
 /// How many dimensions are computed at a time.
 pub const BLOCK: usize = 16;
@@ -30,12 +31,60 @@ pub struct Entry {
     pub cite: &'static str,
     /// The number of samples per pixel and replicate should be a multiple of a power of this number.
     pub base: Option<u32>,
-    /// Dimensions `block * BLOCK ..` of sample `index`; `key` stands for seed, replicate and pixel.
+    /// What has a randomization of its own.
+    pub sharing: Sharing,
+    /// Dimensions `block * BLOCK ..` of sample `index`; `key` stands for seed, replicate and, unless shared, pixel.
     pub fill: fn(key: Seed, index: u32, block: u32, out: &mut [f32; BLOCK]),
 }
 
+/// What has a randomization of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// Every pixel: what is random in one tells nothing of the others.
+    Pixel,
+    /// Every replicate of the image: its pixels have parts of one sequence, in the order of the Morton curve.
+    Image,
+}
+
+impl Entry {
+    /// The key and the index of the first of a pixel's samples.
+    #[inline]
+    pub fn pixel(&self, replicate: Seed, [x, y]: [u32; 2], samples: u32) -> (Seed, u32) {
+        match self.sharing {
+            Sharing::Pixel => (replicate.pixel(x, y), 0),
+            Sharing::Image => {
+                let place = u64::from(spaced(x)) | u64::from(spaced(y)) << 1;
+                (replicate, (place * u64::from(samples.next_power_of_two())) as u32)
+            }
+        }
+    }
+
+    /// An error if the pixels of a film would share samples that are to be different.
+    pub fn check(&self, size: [u32; 2], samples: u32) -> Result<()> {
+        let side = u64::from(size[0].max(size[1]).next_power_of_two());
+        let needed = side * side * u64::from(samples.next_power_of_two());
+        if self.sharing == Sharing::Image && needed > 1 << 32 {
+            let name = self.name;
+            let message = format!(
+                "sampler '{name}' has 2^32 samples for a square of pixels whose side is a power of 2; {} x {} pixels \
+                 with {samples} samples in each replicate would need {needed}",
+                size[0], size[1]
+            );
+            return Err(Error::Settings(message));
+        }
+        Ok(())
+    }
+}
+
+/// The lower half of the bits, with a 0 between any two.
+fn spaced(x: u32) -> u32 {
+    [(8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)]
+        .into_iter()
+        .fold(x & 0xffff, |x, (shift, mask)| (x | x << shift) & mask)
+}
+
 /// The samplers there are.
-pub static ALL: &[Entry] = &[independent::ENTRY, sobol::ENTRY, halton::ENTRY];
+pub static ALL: &[Entry] = &[independent::ENTRY, sobol::ENTRY, halton::ENTRY, zsobol::ENTRY];
 
 /// A sampler by name.
 pub fn by_name(name: &str) -> Result<&'static Entry> {

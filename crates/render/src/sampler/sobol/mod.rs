@@ -12,13 +12,14 @@ mod matrices;
 use evenlight_points::Seed;
 use evenlight_points::scramble::owen::owen_hash_reversed_32;
 
-use crate::sampler::{BLOCK, Entry, GOLDEN, mix, unit_f32};
+use crate::sampler::{BLOCK, Entry, GOLDEN, Sharing, mix, unit_f32};
 use matrices::{DIMS, NIBBLES, WORDS};
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "sobol",
     cite: "Burley 2020, Practical Hash-based Owen Scrambling, JCGT 9(4); Ahmed et al. 2025, SZ Sequences; Sobol' 1967",
     base: Some(2),
+    sharing: Sharing::Pixel,
     fill,
 };
 
