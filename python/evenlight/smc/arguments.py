@@ -21,7 +21,7 @@ def particle_filter(
     *,
     particles: SupportsIndex,
     points: Any,
-    resampling: str,
+    resampling: str | None,
     threshold: float,
     seed: SeedLike,
 ) -> ParticleFilter:
@@ -34,6 +34,8 @@ def particle_filter(
         raise ValueError("observations must be at least one")
     if not 0 <= threshold <= 1:
         raise ValueError(f"threshold must be from 0 to 1, not {threshold}")
+    if resampling is None:
+        resampling = "systematic" if points is None else "stratified"
     if resampling not in RESAMPLING:
         raise ValueError(f"unknown resampling {resampling!r}; known: {', '.join(RESAMPLING)}")
     return ParticleFilter(

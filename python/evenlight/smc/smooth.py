@@ -27,7 +27,7 @@ def smooth(
     particles: SupportsIndex = 1024,
     points: Any = None,
     proposal: Proposal | None = None,
-    resampling: str = "systematic",
+    resampling: str | None = None,
     threshold: float = 0.5,
     function: Callable[[Array], Any] | None = None,
     replicates: SupportsIndex = 8,
