@@ -4,6 +4,7 @@ from .mixing import LESSONS, FarModes, MixingLesson, crossing_time, far_modes, m
 from .mixture_problems import MixtureProblem, rare_event, singularity
 from .rates import Rates, rates
 from .rates_table import RATE_CASES, RateCase, rates_table
+from .roulette import RouletteResult, RouletteStudy, optimal_survival, roulette_study
 from .variance_constants import VarianceConstants, variance_constants
 
 __all__ = [
@@ -14,14 +15,18 @@ __all__ = [
     "MixtureProblem",
     "RateCase",
     "Rates",
+    "RouletteResult",
+    "RouletteStudy",
     "VarianceConstants",
     "crossing_time",
     "far_modes",
     "mixing_lesson",
     "mixing_steps",
+    "optimal_survival",
     "rare_event",
     "rates",
     "rates_table",
+    "roulette_study",
     "singularity",
     "variance_constants",
 ]
