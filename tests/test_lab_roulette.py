@@ -54,3 +54,5 @@ def test_studies_refuse_what_says_nothing(scenes: Path) -> None:
         optimal_survival(BounceStatistics(two, two, two, two, two), squared_mean=2.0)
     with pytest.raises(ValueError, match="segments"):
         roulette_study(scenes / "box.xml", segments=2)
+    with pytest.raises(ValueError, match="fixed must be probabilities"):
+        roulette_study(scenes / "box.xml", fixed=[0.5, 1.0])

@@ -147,6 +147,11 @@ def roulette_study(
     RouletteStudy
         `others` has the fixed probabilities by their number, and "throughput".
 
+    Raises
+    ------
+    ValueError
+        If a number is out of its range; the message names it.
+
     Notes
     -----
     Memory: 12 spp bytes per pixel. What the prediction leaves out is what lies beyond the measured segments.
@@ -159,6 +164,8 @@ def roulette_study(
     True
     """
     depth, count = integer("segments", segments, 3), integer("spp", spp, 2)
+    if not all(0 < p < 1 for p in fixed):
+        raise ValueError(f"fixed must be probabilities above 0 and below 1, not {list(fixed)}")
     bounces = bounce_statistics(
         scene, count, seed, depth + 1, sampler="independent", size=size, filter="box", images=True
     )
