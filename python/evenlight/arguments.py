@@ -1,20 +1,26 @@
-"""Arguments that many calls take: integers, seeds, numbers of threads; what is wrong with one is said by its name."""
+"""Arguments that many calls take: integers, seeds, threads, functions; what is wrong with one is said by its name."""
 
 from __future__ import annotations
 
 import operator
 import os
-from typing import SupportsIndex, TypeAlias
+from typing import Any, SupportsIndex, TypeAlias
 
 import numpy as np
 
-__all__ = ["WORD", "SeedLike", "integer", "seed_number", "threads"]
+__all__ = ["WORD", "SeedLike", "check_callable", "integer", "seed_number", "threads"]
 
 WORD = 2**64 - 1
 """The largest number that the core takes."""
 
 SeedLike: TypeAlias = SupportsIndex | np.random.Generator | None
 """A number from 0 on, a generator to draw one from, or None for 0."""
+
+
+def check_callable(name: str, thing: Any) -> None:
+    """Raise a TypeError if an argument is no function."""
+    if not callable(thing):
+        raise TypeError(f"{name} must be a function, not {type(thing).__name__}")
 
 
 def integer(name: str, value: SupportsIndex, least: int, most: int | None = None) -> int:

@@ -272,14 +272,12 @@ def _pooled(groups: tuple[tuple[float, Summary], ...]) -> tuple[tuple[float, Sum
 
 
 def _degrees(variances: list[Array], degrees: list[float]) -> float:
-    """Welch and Satterthwaite's degrees of freedom of a sum; of an array, the least."""
+    """Degrees of freedom of a sum of means, NaN if one of them has none; of an array, the least."""
     if min(degrees) < 1:
         return math.nan
     if len(degrees) == 1:
         return float(degrees[0])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = sum(variances) ** 2 / sum(v**2 / k for v, k in zip(variances, degrees, strict=True))
-    return float(np.min(np.where(np.isfinite(ratio), ratio, sum(degrees))))
+    return intervals.degrees_of_sum(variances, degrees)
 
 
 def _student(estimate: Estimate, level: float) -> tuple[Any, Any]:

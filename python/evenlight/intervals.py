@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-__all__ = ["Interval", "bounds", "check_level", "skewness", "student_quantile"]
+__all__ = ["Interval", "bounds", "check_level", "degrees_of_sum", "skewness", "student_quantile"]
 
 T = TypeVar("T")
 
@@ -32,6 +32,20 @@ def check_level(level: float) -> float:
 def student_quantile(level: float, degrees: Any) -> Any:
     """The half width of a two-sided interval of Student's t, in standard errors."""
     return stats.t.ppf(0.5 + 0.5 * level, degrees)
+
+
+def degrees_of_sum(variances: Any, degrees: Any) -> float:
+    """Welch and Satterthwaite's degrees of freedom of a sum of independent means; of several quantities the least.
+
+    `variances` are those of the means, shape (means, ...), with `degrees`, shape (means,); all degrees together where
+    nothing varies.
+    """
+    variances, degrees = np.asarray(variances, np.float64), np.asarray(degrees, np.float64)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = variances.sum(axis=0) ** 2 / (variances**2 / degrees.reshape(-1, *[1] * (variances.ndim - 1))).sum(
+            axis=0
+        )
+    return float(np.min(np.where(np.isfinite(ratio), ratio, degrees.sum())))
 
 
 def bounds(value: Any, standard_error: Any, quantile: Any, skew: Any = 0.0) -> tuple[Any, Any]:

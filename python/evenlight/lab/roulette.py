@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from evenlight.arguments import integer
 from evenlight.bounce_statistics import BounceStatistics, bounce_statistics
 from evenlight.multilevel.level_distribution import best_for_sum
-from evenlight.render import Scene, render
+from evenlight.render import Scene, load_scene, render
 
 __all__ = ["RouletteResult", "RouletteStudy", "optimal_survival", "roulette_study"]
 
@@ -166,13 +166,14 @@ def roulette_study(
     depth, count = integer("segments", segments, 3), integer("spp", spp, 2)
     if not all(0 < p < 1 for p in fixed):
         raise ValueError(f"fixed must be probabilities above 0 and below 1, not {list(fixed)}")
+    loaded = scene if isinstance(scene, Scene) else load_scene(scene)
     bounces = bounce_statistics(
-        scene, count, seed, depth + 1, sampler="independent", size=size, filter="box", images=True
+        loaded, count, seed, depth + 1, sampler="independent", size=size, filter="box", images=True
     )
     squared_mean = _squared_mean(bounces, count)
 
     def result(roulette: str | tuple[float, ...]) -> RouletteResult:
-        return _render(scene, roulette, (count, size, seed), bounces, squared_mean)
+        return _render(loaded, roulette, (count, size, seed), bounces, squared_mean)
 
     others = {f"{p:g}": result((float(p),)) for p in fixed} | {"throughput": result("throughput")}
     return RouletteStudy(result(optimal_survival(bounces, squared_mean)), others, bounces)
@@ -193,7 +194,7 @@ def _squared_mean(bounces: BounceStatistics, spp: int) -> float:
 
 
 def _render(
-    scene: Scene | str | os.PathLike[str],
+    scene: Scene,
     roulette: str | tuple[float, ...],
     settings: tuple[int, tuple[int, int], int],
     bounces: BounceStatistics,

@@ -9,14 +9,13 @@ from typing import Any, ClassVar, SupportsIndex
 
 import numpy as np
 
-from evenlight.arguments import SeedLike, integer, seed_number
+from evenlight.arguments import SeedLike, check_callable, integer, seed_number
 
 from .chains import Chains
 from .driving import IndependentNumbers
 from .gradients import Gradient, with_gradient
 from .kernel import Array, LogDensity, State
 from .leapfrog import gradient_state
-from .target import check_callable
 
 __all__ = ["NUTS"]
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from evenlight.arguments import integer
+from evenlight.figures import empty_figure
 
 from .chains import Chains
 from .kernel import Array
@@ -182,10 +183,5 @@ def rank_figure(record: RankRecord) -> Any:
 
 
 def _panels(count: int) -> tuple[Any, list[Any]]:
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise ImportError("figures need matplotlib: pip install 'evenlight[plots]'") from None
-
-    figure = Figure(figsize=(8, 1 + 1.8 * count), layout="constrained")
+    figure = empty_figure(8, 1 + 1.8 * count)
     return figure, list(figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0])

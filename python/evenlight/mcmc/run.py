@@ -8,12 +8,11 @@ from typing import Any, SupportsIndex
 import numpy as np
 
 from evenlight import _core
-from evenlight.arguments import SeedLike, integer, seed_number
+from evenlight.arguments import SeedLike, check_callable, integer, seed_number
 
 from .chains import Chains
 from .driving import Driving, IndependentNumbers
 from .kernel import Array, Kernel, WarmUp
-from .target import check_callable
 
 __all__ = ["run"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .kernel import Array, LogDensity, State
 
-__all__ = ["DensityState", "check_callable", "check_positive", "density_state", "evaluate", "moved", "positions"]
+__all__ = ["DensityState", "check_positive", "density_state", "evaluate", "moved", "positions"]
 
 S = TypeVar("S", bound=State)
 
@@ -62,12 +62,6 @@ def moved(state: S, accepted: NDArray[np.bool_], **proposed: Array) -> S:
         for name, new in proposed.items()
     }
     return replace(state, **rows)
-
-
-def check_callable(name: str, thing: Any) -> None:
-    """Raise a TypeError if an argument is no function."""
-    if not callable(thing):
-        raise TypeError(f"{name} must be a function, not {type(thing).__name__}")
 
 
 def check_positive(name: str, value: float) -> None:

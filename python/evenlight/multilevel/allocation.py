@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenlight.intervals import degrees_of_sum
 from evenlight.multilevel.level import Level, LevelRow
 
 __all__ = ["LEAST", "degrees_of_freedom", "extend", "lacking"]
@@ -42,9 +43,5 @@ def extend(levels: Sequence[Level], more: Array, money: float) -> bool:
 
 
 def degrees_of_freedom(rows: Sequence[LevelRow]) -> float:
-    """Welch and Satterthwaite's degrees of freedom of the sum of the levels' means; of several quantities the least."""
-    squares = np.array([np.atleast_1d(np.asarray(row.variance) / row.n) for row in rows])
-    n = np.array([[row.n] for row in rows])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = squares.sum(axis=0) ** 2 / (squares**2 / (n - 1)).sum(axis=0)
-    return float(np.min(np.where(np.isfinite(ratio), ratio, n.sum())))
+    """Degrees of freedom of the sum of the levels' means; of several quantities the least."""
+    return degrees_of_sum([np.asarray(row.variance) / row.n for row in rows], [row.n - 1 for row in rows])

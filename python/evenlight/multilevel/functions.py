@@ -8,7 +8,7 @@ from typing import Any, SupportsIndex
 import numpy as np
 from numpy.typing import NDArray
 
-from evenlight.arguments import integer
+from evenlight.arguments import check_callable, integer
 from evenlight.multilevel.level_sampler import Coupled
 
 __all__ = ["FunctionSampler"]
@@ -67,8 +67,7 @@ class FunctionSampler:
         exact: bool = False,
         name: str = "function",
     ) -> None:
-        if not callable(f):
-            raise TypeError(f"f must be a function, not {type(f).__name__}")
+        check_callable("f", f)
         if exact and max_level is None:
             raise ValueError("exact=True says that the level max_level is exact; give max_level")
         self.name = name

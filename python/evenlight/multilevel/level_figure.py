@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenlight.estimate import Estimate
+from evenlight.figures import empty_figure
 from evenlight.multilevel.level import LevelRow
 
 __all__ = ["level_figure"]
@@ -47,9 +48,7 @@ def level_figure(estimate: Estimate) -> Any:
     rows = estimate.diagnostics.get("levels", ())
     if not rows or not isinstance(rows[0].level, int):
         raise ValueError(f"an estimate by {estimate.method!r} has no levels in a row to draw")
-    from matplotlib.figure import Figure  # optional: only figures need it
-
-    figure = Figure(figsize=(9, 7), layout="constrained")
+    figure = empty_figure(9, 7)
     panels = figure.subplots(2, 2).ravel()
     levels = [row.level for row in rows]
     for panel, name in zip(panels, ("variance", "mean"), strict=False):

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from evenlight.arguments import SeedLike, integer, seed_number
 from evenlight.estimate import Estimate
+from evenlight.intervals import degrees_of_sum
 from evenlight.multilevel.decay import Rates, given_rate, measure_rates, remaining_bias
 from evenlight.multilevel.goal import Goal
 from evenlight.multilevel.level import LevelRow, compared
@@ -192,8 +193,5 @@ class _Run:
         self._levels.append(level)
 
     def _degrees(self) -> float:
-        """Welch and Satterthwaite's degrees of freedom of the sum; of several quantities the least."""
-        squares = np.array([np.atleast_1d(level.variance) for level in self._levels])
-        with np.errstate(invalid="ignore", divide="ignore"):
-            ratio = squares.sum(axis=0) ** 2 / (squares**2).sum(axis=0)
-        return float(np.min(np.where(np.isfinite(ratio), ratio, 1.0))) * (self._replicates - 1)
+        variances = [level.variance for level in self._levels]
+        return degrees_of_sum(variances, [self._replicates - 1] * len(variances))

@@ -7,9 +7,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from evenlight.arguments import check_callable
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.metric import root_of, spread
-from evenlight.mcmc.target import DensityState, check_callable, check_positive, density_state, evaluate, moved
+from evenlight.mcmc.target import DensityState, check_positive, density_state, evaluate, moved
 
 __all__ = ["DelayedRejection", "DelayedRejectionInfo"]
 

@@ -8,8 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from evenlight.arguments import check_callable
 from evenlight.mcmc.kernel import Array, Info, Kernel, State
-from evenlight.mcmc.target import check_callable, positions
+from evenlight.mcmc.target import positions
 
 __all__ = ["Gibbs"]
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from evenlight.arguments import check_callable
 from evenlight.importance import Density, as_density
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, metropolis
-from evenlight.mcmc.target import DensityState, check_callable, density_state, evaluate, moved
+from evenlight.mcmc.target import DensityState, density_state, evaluate, moved
 
 __all__ = ["Independence"]
 

@@ -8,11 +8,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from evenlight.arguments import check_callable
 from evenlight.mcmc.gradients import Gradient, with_gradient
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.leapfrog import GradientState, gradient_state, leapfrog, tuned
 from evenlight.mcmc.metric import root_of
-from evenlight.mcmc.target import check_callable, check_positive, moved
+from evenlight.mcmc.target import check_positive, moved
 
 __all__ = ["MALA"]
 

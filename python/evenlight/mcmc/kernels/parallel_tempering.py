@@ -9,8 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from evenlight.arguments import check_callable
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, State, metropolis
-from evenlight.mcmc.target import DensityState, check_callable
+from evenlight.mcmc.target import DensityState
 
 __all__ = ["ParallelTempering", "TemperedState", "TemperingInfo"]
 

@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from evenlight.arguments import integer
+from evenlight.arguments import check_callable, integer
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity
-from evenlight.mcmc.target import DensityState, check_callable, density_state, evaluate
+from evenlight.mcmc.target import DensityState, density_state, evaluate
 
 __all__ = ["Slice", "SliceInfo"]
 
