@@ -198,7 +198,6 @@ mod tests {
 
     /// Values of 50-digit arithmetic (mpmath) in the middle of the intervals, on both sides of every seam.
     #[test]
-    #[expect(clippy::excessive_precision, reason = "all digits of a double")]
     fn quantiles_are_precise_to_four_units_in_the_last_place() {
         for (u, x) in [
             (0.0, -8.292361075813595),
