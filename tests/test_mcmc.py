@@ -26,6 +26,7 @@ from evenlight.mcmc import (
     MetropolisHastings,
     MultipleTry,
     ParallelTempering,
+    PrimarySampleSpace,
     Proposal,
     RandomWalk,
     Slice,
@@ -83,6 +84,7 @@ class Case:
     kernel: Any
     to_target: Any = to_banana
     from_target: Any = from_banana
+    start: tuple[float, float] = (1.5, 1.0)
 
     def exact_start(self, rng: np.random.Generator, rows: int) -> Any:
         """A state in equilibrium: for tempering, at every temperature (a power of a normal is a wider normal)."""
@@ -110,6 +112,12 @@ CASES = {
     "parallel_tempering": Case(ParallelTempering(banana, BETAS, within)),
     "delayed_rejection": Case(DelayedRejection(banana, scale=1.5, shrink=0.3)),
     "multiple_try": Case(MultipleTry(banana, tries=4, scale=1.2)),
+    "primary_sample_space": Case(  # Beta(2, 1) and Beta(3, 1)
+        PrimarySampleSpace(lambda u: np.log(u[:, 0]) + 2 * np.log(u[:, 1]), large_step=0.4),
+        lambda z: special.ndtr(z) ** np.array([1 / 2, 1 / 3]),
+        lambda u: special.ndtri(u ** np.array([2, 3])),
+        (0.9, 0.9),
+    ),
 }
 DETERMINISTIC = {"herded_gibbs"}
 
@@ -186,7 +194,7 @@ def test_the_edge_of_a_target_is_respected(kernel: Any) -> None:
 def test_kernels_forget_where_they_start(name: str) -> None:
     """Means of 64 chains within 5 standard errors: a false alarm in 50,000 for each of 4 functions."""
     kernel = CASES[name].kernel
-    chains = mcmc.run(kernel, [1.5, 1.0], n=600, chains=64, burn_in=150, seed=3)
+    chains = mcmc.run(kernel, CASES[name].start, n=600, chains=64, burn_in=150, seed=3)
     estimate = chains.estimate(lambda x: np.concatenate([f := CASES[name].from_target(x), f**2], axis=1))
     assert (np.abs(estimate.value - [0, 0, 1, 1]) < 5 * estimate.standard_error).all()
     assert (estimate.standard_error < 0.12).all()
@@ -197,7 +205,7 @@ def test_kernels_forget_where_they_start(name: str) -> None:
 def test_chains_are_treated_each_by_itself_and_deterministically(name: str) -> None:
     kernel = CASES[name].kernel
     rng = np.random.default_rng(5)
-    start, uniforms = rng.normal(size=(50, 2)), rng.uniform(size=(50, kernel.dims(2)))
+    start, uniforms = CASES[name].to_target(rng.normal(size=(50, 2))), rng.uniform(size=(50, kernel.dims(2)))
     together, info = kernel.step(kernel.init(start), uniforms)
     order = rng.permutation(50)[:20]
     apart, apart_info = kernel.step(kernel.init(start[order]), uniforms[order])
@@ -260,6 +268,9 @@ def test_finite_differences_are_gradients() -> None:
         (lambda: MultipleTry(banana, tries=1), ValueError, "tries must be at least 2"),
         (lambda: ParallelTempering(banana, [1, 1], within), ValueError, "must fall from 1"),
         (lambda: ParallelTempering(banana, [1, 0.5], lambda f, b: CORRELATED).init(ORIGIN), TypeError, "log density"),
+        (lambda: PrimarySampleSpace(banana, large_step=0.0), ValueError, "large_step must be above 0"),
+        (lambda: PrimarySampleSpace(banana, smallest=0.1), ValueError, "0 < smallest <= largest"),
+        (lambda: PrimarySampleSpace(banana).init(ORIGIN + 1), ValueError, r"chain 0 starts at \[1.0, 1.0\], outside"),
         (lambda: HerdedGibbs(lambda x, j: 0 * x[:, 0]).init(ORIGIN + 0.5), ValueError, "zeros and ones"),
         (lambda: HerdedGibbs(lambda x, j: 2 + x[:, 0]).step(*HERDED), ValueError, "4 probabilities"),
         (lambda: HerdedGibbs(lambda x, j: 2 + x[:, 0]).dims(17), ValueError, "at most 16 variables"),

@@ -7,6 +7,7 @@ chains of any kernel, driven by any sequence.
 from .chains import Chains
 from .diagnostics import Diagnostics
 from .driving import DRIVING, LCG, LFSR, Antithetic, Driving, IndependentNumbers, Permuted, Stratified
+from .expected_values import expected_value_integral
 from .kernel import Info, Kernel, State, WarmUp
 from .kernels import (
     HMC,
@@ -19,6 +20,7 @@ from .kernels import (
     MetropolisHastings,
     MultipleTry,
     ParallelTempering,
+    PrimarySampleSpace,
     Proposal,
     RandomWalk,
     Slice,
@@ -50,6 +52,7 @@ __all__ = [
     "MultipleTry",
     "ParallelTempering",
     "Permuted",
+    "PrimarySampleSpace",
     "Proposal",
     "RandomWalk",
     "RankRecord",
@@ -58,6 +61,7 @@ __all__ = [
     "Stratified",
     "TraceRecord",
     "WarmUp",
+    "expected_value_integral",
     "rank_figure",
     "rank_record",
     "run",

@@ -11,6 +11,7 @@ from .mala import MALA
 from .metropolis_hastings import MetropolisHastings, Proposal
 from .multiple_try import MultipleTry
 from .parallel_tempering import ParallelTempering
+from .primary_sample_space import PrimarySampleSpace
 from .random_walk import RandomWalk
 from .slice import Slice
 
@@ -25,6 +26,7 @@ __all__ = [
     "MetropolisHastings",
     "MultipleTry",
     "ParallelTempering",
+    "PrimarySampleSpace",
     "Proposal",
     "RandomWalk",
     "Slice",
@@ -42,6 +44,7 @@ _ALL: tuple[type[Kernel], ...] = (
     DelayedRejection,
     MultipleTry,
     HerdedGibbs,
+    PrimarySampleSpace,
 )
 
 KERNELS: dict[str, type[Kernel]] = {kernel.name: kernel for kernel in _ALL}
