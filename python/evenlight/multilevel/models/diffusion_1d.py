@@ -12,12 +12,11 @@ from evenlight.multilevel.level_sampler import Coupled, LevelSampler
 
 from .fields import Field, as_field
 from .mixed_difference import MixedDifference
+from .row_blocks import row_blocks
 
 __all__ = ["Diffusion1D", "IndexedDiffusion1D"]
 
 Array = NDArray[np.float64]
-
-_BLOCK = 2**15
 
 
 def solve_1d(coefficient: Array) -> Array:
@@ -171,10 +170,9 @@ class IndexedDiffusion1D(MixedDifference):
 
 def _means(field: Field, u: Array, cells: int) -> Array:
     middle = (np.arange(cells) + 0.5) / cells
-    rows = max(_BLOCK // cells, 64)
     means = np.empty(len(u))
-    for start in range(0, len(u), rows):
-        means[start : start + rows] = solve_1d(field.values(u[start : start + rows], middle))
+    for rows in row_blocks(len(u), cells):
+        means[rows] = solve_1d(field.values(u[rows], middle))
     return means
 
 

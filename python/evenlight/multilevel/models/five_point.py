@@ -8,6 +8,7 @@ from scipy import linalg, sparse
 from scipy.sparse.linalg import splu
 
 from .fields import Field
+from .row_blocks import row_blocks
 
 __all__ = ["mean_solutions"]
 
@@ -45,12 +46,12 @@ def mean_solutions(field: Field, u: Array, cells: tuple[int, int]) -> Array:
     places = _edges(nx, ny)
     places = places[::-1] if swapped else places
     unknowns, width = (nx - 1) * (ny - 1), ny - 1
-    rows = max(_BLOCK // (unknowns * (width + 1)), 1) if width <= _NARROW else 1
+    numbers = _BLOCK if width <= _NARROW else 0
     means = np.empty(len(u))
-    for start in range(0, len(u), rows):
-        band = _band(field.values(u[start : start + rows], *places), nx, ny)
+    for rows in row_blocks(len(u), unknowns * (width + 1), numbers=numbers, least=1):
+        band = _band(field.values(u[rows], *places), nx, ny)
         solution = _by_band(band) if width <= _NARROW else _by_sparse(band)
-        means[start : start + rows] = solution.reshape(-1, unknowns).sum(axis=1) / (nx * ny)
+        means[rows] = solution.reshape(-1, unknowns).sum(axis=1) / (nx * ny)
     return means
 
 

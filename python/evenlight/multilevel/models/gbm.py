@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from evenlight.multilevel.level_sampler import Coupled, LevelSampler
 from .option import Option
 from .path import Path
 from .payoffs import PAYOFFS
+from .row_blocks import row_blocks
 
 __all__ = ["GeometricBrownianMotion"]
 
@@ -24,31 +26,29 @@ _BLOCK = 2**14  # numbers that are worked on at once: a few arrays of this size 
 _ROWS = 512  # but no fewer paths than this: a step of a block has its overhead
 
 
-def _euler(increments: Array, step: float, option: Option) -> Array:
+def _euler(increments: Array, step: float, option: Option, factors: Array) -> None:
     """1 + r h + σ ΔW."""
-    factors = increments * option.volatility
+    np.multiply(increments, option.volatility, out=factors)
     factors += 1.0 + option.rate * step
-    return factors
 
 
-def _milstein(increments: Array, step: float, option: Option) -> Array:
+def _milstein(increments: Array, step: float, option: Option, factors: Array) -> None:
     """1 + r h + σ ΔW + σ² (ΔW² - h) / 2, with the square completed."""
-    factors = increments * option.volatility
+    np.multiply(increments, option.volatility, out=factors)
     factors += 1.0
     factors *= factors
     factors *= 0.5
     factors += 0.5 + (option.rate - option.volatility**2 / 2) * step
-    return factors
 
 
-def _exact(increments: Array, step: float, option: Option) -> Array:
+def _exact(increments: Array, step: float, option: Option, factors: Array) -> None:
     """exp((r - σ²/2) h + σ ΔW)."""
-    factors = increments * option.volatility
+    np.multiply(increments, option.volatility, out=factors)
     factors += (option.rate - option.volatility**2 / 2) * step
-    return np.asarray(np.exp(factors, out=factors))
+    np.exp(factors, out=factors)
 
 
-_SCHEMES: dict[str, Callable[[Array, float, Option], Array]] = {
+_SCHEMES: dict[str, Callable[[Array, float, Option, Array], None]] = {
     "euler": _euler,
     "milstein": _milstein,
     "exact": _exact,
@@ -160,9 +160,8 @@ class GeometricBrownianMotion(LevelSampler):
         if np.ndim(u) != 2 or np.shape(u)[1] != self.dims(level):
             raise ValueError(f"u must have shape (n, {self.dims(level)}) on level {level}, not {np.shape(u)}")
         values = np.empty((level - lowest + 1, len(u)))
-        rows = max(_BLOCK // steps, _ROWS)
-        for start in range(0, len(u), rows):
-            self._block(np.asarray(u[start : start + rows], np.float64), values[:, start : start + rows])
+        for rows in row_blocks(len(u), steps, numbers=_BLOCK, least=_ROWS):
+            self._block(np.asarray(u[rows], np.float64), values[:, rows])
         return values
 
     def _block(self, u: Array, values: Array) -> None:
@@ -170,17 +169,20 @@ class GeometricBrownianMotion(LevelSampler):
         motion = brownian_increments(u[:, :steps], horizon=self.option.horizon, construction=self.construction)
         increments = np.ascontiguousarray(motion.T)
         uniforms = np.ascontiguousarray(u[:, steps:].T) if self._takes_uniforms else None
-        own = increments
+        own, prices = increments, self._prices(increments)
         for rung in reversed(range(len(values))):
-            values[rung] = self._value(self._path(own, increments, uniforms))
-            if rung:
+            step = self.option.horizon / (len(prices) - 1)
+            values[rung] = self._value(Path(prices, increments, step, self.option.volatility, uniforms))
+            if rung and self.scheme == "exact":  # the coarse path is at the same places, at every other time
+                prices = prices[::2]
+            elif rung:
                 own = own[0::2] + own[1::2]
+                prices = self._prices(own)
 
-    def _path(self, own: Array, increments: Array, uniforms: Array | None) -> Path:
-        step = self.option.horizon / len(own)
-        factors = _SCHEMES[self.scheme](own, step, self.option)
-        prices = np.empty((len(own) + 1, own.shape[1]))
+    def _prices(self, increments: Array) -> Array:
+        prices = np.empty((len(increments) + 1, increments.shape[1]))
         prices[0] = self.option.spot
-        for k, factor in enumerate(factors):
-            np.multiply(prices[k], factor, out=prices[k + 1])
-        return Path(prices, increments, step, self.option.volatility, uniforms)
+        _SCHEMES[self.scheme](increments, self.option.horizon / len(increments), self.option, prices[1:])
+        for before, after in pairwise(prices):
+            after *= before
+        return prices

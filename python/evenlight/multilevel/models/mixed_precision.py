@@ -16,6 +16,7 @@ from evenlight.multilevel.level_sampler import Coupled, LevelSampler
 
 from .formats import Arithmetic, as_arithmetic
 from .option import Option
+from .row_blocks import row_blocks
 
 __all__ = ["EulerCall", "MixedPrecision"]
 
@@ -23,7 +24,6 @@ Array = NDArray[np.float64]
 Simulation = Callable[[Arithmetic, Array], Any]
 
 _LADDER = ("fixed2", "fixed4", "fixed8", "float16", "float32", "float64")
-_BLOCK = 2**15
 
 
 @dataclass(frozen=True)
@@ -136,9 +136,7 @@ class MixedPrecision(LevelSampler):
             raise ValueError(f"level must be from 0 to {self.max_level}, one for each format, not {level}")
         numbers = self._checked(u)
         fine, coarse = np.empty(len(numbers)), np.zeros(len(numbers))
-        rows = max(_BLOCK // self.steps, 64)
-        for start in range(0, len(numbers), rows):
-            block = slice(start, start + rows)
+        for block in row_blocks(len(numbers), self.steps):
             z = np.ascontiguousarray(normals(numbers[block]).T)
             fine[block] = self._run(level, z)
             if level:

@@ -15,12 +15,11 @@ from evenlight.multilevel.brownian import normals
 from evenlight.multilevel.level_sampler import Coupled, LevelSampler
 
 from .option import normal_cdf
+from .row_blocks import row_blocks
 
 __all__ = ["NestedExpectation", "partial_information"]
 
 Array = NDArray[np.float64]
-
-_BLOCK = 2**15
 
 
 def best_decision(means: Array) -> Array:
@@ -105,9 +104,7 @@ class NestedExpectation(LevelSampler):
             raise ValueError(f"u must have shape (n, {self.dims(level)}) on level {level}, not {numbers.shape}")
         n, half = len(numbers), self.samples(level) // 2
         fine, coarse = np.empty(n), np.zeros(n)
-        rows = max(_BLOCK // numbers.shape[1], 64)
-        for start in range(0, n, rows):
-            block = slice(start, start + rows)
+        for block in row_blocks(n, numbers.shape[1]):
             values = self._values(numbers[block])
             fine[block] = self._outer(values.mean(axis=1))
             if level:

@@ -11,11 +11,11 @@ from evenlight.arguments import integer
 from evenlight.multilevel.brownian import CONSTRUCTIONS, brownian_increments
 from evenlight.multilevel.level_sampler import Coupled, LevelSampler
 
+from .row_blocks import row_blocks
+
 __all__ = ["PathSampler"]
 
 Array = NDArray[np.float64]
-
-_BLOCK = 2**15  # random numbers that are worked on at once: what a second-level cache holds with room for the rest
 
 
 class PathSampler(LevelSampler):
@@ -80,7 +80,7 @@ class PathSampler(LevelSampler):
         """The quantity of the fine path (or the mean of the two) and of the coarse one."""
         numbers = self._checked(level, u)
         fine, coarse = np.empty(len(numbers)), np.zeros(len(numbers))
-        for rows in self._blocks(numbers):
+        for rows in row_blocks(*numbers.shape):
             dw = self._increments(numbers[rows])
             fine[rows] = self._run(dw)
             if level:
@@ -102,7 +102,7 @@ class PathSampler(LevelSampler):
             raise ValueError(f"{self.name} is antithetic: it has no single simulation on all levels")
         numbers = self._checked(level, u)
         values = np.empty((len(numbers), level + 1))
-        for rows in self._blocks(numbers):
+        for rows in row_blocks(*numbers.shape):
             dw = self._increments(numbers[rows])
             for rung in reversed(range(level + 1)):
                 values[rows, rung] = self._run(dw)
@@ -115,10 +115,6 @@ class PathSampler(LevelSampler):
         if numbers.ndim != 2 or numbers.shape[1] != self.dims(level):
             raise ValueError(f"u must have shape (n, {self.dims(level)}) on level {level}, not {numbers.shape}")
         return numbers
-
-    def _blocks(self, u: Array) -> list[slice]:
-        rows = max(_BLOCK // u.shape[1], 64)
-        return [slice(start, start + rows) for start in range(0, len(u), rows)]
 
     def _increments(self, u: Array) -> Array:
         """Shape (steps, noises, n)."""

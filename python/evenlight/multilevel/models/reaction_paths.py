@@ -17,6 +17,7 @@ from .reactions.gene_transcription import gene_transcription
 from .reactions.network import ReactionNetwork
 from .reactions.streams import Streams
 from .reactions.tau_leaping import coupled_leaps, leaps
+from .row_blocks import row_blocks
 
 __all__ = ["ReactionPaths"]
 
@@ -111,8 +112,7 @@ class ReactionPaths(LevelSampler):
         if self.max_level is not None and level > self.max_level:
             raise ValueError(f"level must be at most {self.max_level}, where the chain is exact, not {level}")
         fine, coarse, cost = np.empty(len(keys)), np.zeros(len(keys)), 0.0
-        for start in range(0, len(keys), _ROWS):
-            rows = slice(start, start + _ROWS)
+        for rows in row_blocks(len(keys), 1, numbers=_ROWS):
             counts, partner, taken = self._pairs(level, keys[rows])
             fine[rows] = self._values(counts)
             if level:
