@@ -16,6 +16,7 @@ import pytest
 
 import evenlight
 from conftest import Run
+from evenlight import cli
 
 
 def error_of(done: subprocess.CompletedProcess[str]) -> str:
@@ -31,7 +32,7 @@ def test_version(evenlight_command: Run) -> None:
     assert (done.returncode, done.stdout) == (0, f"evenlight {evenlight.__version__}\n")
 
 
-@pytest.mark.parametrize("command", [[], ["render"], ["points"], ["multilevel"], ["info"]])
+@pytest.mark.parametrize("command", [[], *([name] for name in cli.COMMANDS)])
 def test_help_says_what_can_be_asked(evenlight_command: Run, command: list[str]) -> None:
     done = evenlight_command(*command, "--help")
     assert done.returncode == 0
@@ -113,7 +114,8 @@ def heed_interrupts() -> None:
 @pytest.mark.parametrize("request_to_end", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_writes_what_there_is(tmp_path: Path, scenes: Path, request_to_end: signal.Signals) -> None:
     # a busy computer may take long to import all that is needed, and that is not what is interrupted here
-    program = "import sys; from evenlight.cli import main; print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
+    program = "import sys, evenlight.cli.render as _; from evenlight.cli import main; "
+    program += "print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-c", program, "render", str(scenes / "demo.xml")]
     # So many samples that a single pixel would take minutes.
     command += ["--spp", str(1 << 31), "--size", "64x48", "-o", "a.npz", "-o", "a.exr", "-o", "a.png"]

@@ -6,7 +6,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 __all__ = ["Interval", "bounds", "check_level", "degrees_of_sum", "skewness", "student_quantile"]
 
@@ -31,7 +31,7 @@ def check_level(level: float) -> float:
 
 def student_quantile(level: float, degrees: Any) -> Any:
     """The half width of a two-sided interval of Student's t, in standard errors."""
-    return stats.t.ppf(0.5 + 0.5 * level, degrees)
+    return special.stdtrit(degrees, 0.5 + 0.5 * level)
 
 
 def degrees_of_sum(variances: Any, degrees: Any) -> float:

@@ -31,7 +31,7 @@ fn families() -> Vec<Family> {
         (
             "points/src/warp",
             names!(warp::ALL),
-            &["curve", "options", "real", "round", "rows", "steps", "triangle"],
+            &["curve", "options", "quantile", "real", "round", "rows", "steps", "triangle"],
         ),
         (
             "render/src/bsdf",

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenlight.arguments import integer
-from evenlight.bounce_statistics import BounceStatistics, bounce_statistics
+from evenlight.bounces import BounceStatistics, bounce_statistics
 from evenlight.multilevel.level_distribution import best_for_sum
-from evenlight.render import Scene, load_scene, render
+from evenlight.rendering import Scene, load_scene, render
 
 __all__ = ["RouletteResult", "RouletteStudy", "optimal_survival", "roulette_study"]
 

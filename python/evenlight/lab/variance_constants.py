@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, SupportsIndex
 import numpy as np
 
 from evenlight.importance.mixture import Mixture
-from evenlight.integrate import integrate
+from evenlight.integration import integrate
 from evenlight.lab.mixture_problems import Array, MixtureProblem
 from evenlight.points import Sobol
 

@@ -56,7 +56,7 @@ def brownian_increments(u: Any, *, horizon: float = 1.0, construction: str = "in
 
     Notes
     -----
-    Cost per number: one inverse of the normal distribution (7 to 20 nanoseconds), and for "bridge" as much
+    Cost per number: one inverse of the normal distribution (about 4 nanoseconds), and for "bridge" as much
     again, for "pca" ``2 * steps`` operations, in a matrix product.
 
     References: R. E. Caflisch, W. Morokoff and A. B. Owen, "Valuation of mortgage backed securities using Brownian

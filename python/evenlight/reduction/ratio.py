@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from evenlight.estimate import Estimate, from_error, plain
-from evenlight.integrate import integrate
+from evenlight.integration import integrate
 
 __all__ = ["ratio"]
 

@@ -24,6 +24,7 @@ mod morton;
 mod options;
 pub mod piecewise_constant;
 pub mod piecewise_linear;
+mod quantile;
 mod real;
 mod round;
 pub mod rows;

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from evenlight.smc.state_space import normals
 
@@ -86,5 +86,5 @@ class AsianOptionChain(MarkovChain):
         mean = self._log_spot + self._drift * (self.steps + 1) / 2
         spread = self._spread * float(np.linalg.norm(np.arange(1, self.steps + 1) / self.steps))
         edge = (mean - math.log(self.strike)) / spread
-        value = math.exp(mean + spread**2 / 2) * stats.norm.cdf(edge + spread)
-        return float(self._discount * (value - self.strike * stats.norm.cdf(edge)))
+        value = math.exp(mean + spread**2 / 2) * special.ndtr(edge + spread)
+        return float(self._discount * (value - self.strike * special.ndtr(edge)))

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from evenlight.smc.state_space import normals
 
@@ -45,7 +45,7 @@ class AutoregressiveChain(MarkovChain):
             raise ValueError(f"steps must be at least 1 and persistence in [0, 1), not {steps} and {persistence}")
         self.steps, self.persistence = steps, persistence
         spread = math.sqrt(1 - persistence ** (2 * steps))
-        self.exact: Array = np.array([0.0, spread / math.sqrt(2 * math.pi), stats.norm.sf(1 / spread)])
+        self.exact: Array = np.array([0.0, spread / math.sqrt(2 * math.pi), special.ndtr(-1 / spread)])
 
     def init(self, n: int) -> Array:
         """All at 0."""

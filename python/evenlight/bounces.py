@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenlight import _core
-from evenlight.render import Scene, check_ranges, load_scene
+from evenlight.rendering import Scene, check_ranges, load_scene
 
 __all__ = ["BounceStatistics", "bounce_statistics"]
 
