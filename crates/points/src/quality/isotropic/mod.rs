@@ -6,8 +6,8 @@
 //!
 //! | which sets | kind | cost |
 //! |---|---|---|
-//! | [`fullest`]: too many points | exact | O(n^3) |
-//! | [`emptiest`]: too few | between bounds | O(n^3 sectors^2) for each halving of what is open |
+//! | `fullest`: too many points | exact | O(n^3) |
+//! | `emptiest`: too few | between bounds | O(n^3 sectors^2) for each halving of what is open |
 //!
 //! So the answer is exact where too many points are worse for sure, and otherwise between two bounds, which more sectors
 //! bring together.
