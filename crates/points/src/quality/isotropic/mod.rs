@@ -13,10 +13,12 @@
 //! bring together.
 
 mod ascent;
+mod chains;
 mod emptiest;
 mod fullest;
 mod pieces;
 mod polygon;
+mod sectors;
 
 use std::num::NonZeroUsize;
 
