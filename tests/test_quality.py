@@ -93,3 +93,26 @@ def test_what_is_certain_is_never_a_lower_bound() -> None:
         star = quality.star_discrepancy(x, "certain", limit=limit, brackets=16)
         assert star.kind == kind
         assert quality.star_discrepancy(x) <= star
+
+
+def test_an_isotropic_discrepancy_says_what_it_is() -> None:
+    x = np.random.default_rng(2).random((24, 2))
+    lower, upper = quality.isotropic_discrepancy(x, sectors=16), quality.isotropic_discrepancy(x, "upper", sectors=16)
+    assert (lower.kind, upper.kind) == ("lower", "upper")
+    assert (lower, upper) == (lower.lower, lower.upper) == (upper.lower, upper.upper)
+    assert quality.star_discrepancy(x) <= upper
+    # the polygon by the shoelace formula and by its sides
+    a, b = lower.vertices, np.roll(lower.vertices, -1, axis=0)
+    area = float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) / 2
+    along, there = b - a, x[:, None] - a
+    turns = along[:, 0] * there[..., 1] - along[:, 1] * there[..., 0]
+    inside = (turns >= -1e-12 if lower.closed else turns > 1e-12).all(axis=1)
+    assert lower == pytest.approx((inside.mean() - area) * (1 if lower.closed else -1), abs=1e-9)
+    assert pickle.loads(pickle.dumps(lower)).evidence == lower.evidence
+    assert quality.isotropic_discrepancy([[0.5, 0.5]], sectors=64).kind == "exact"
+    with pytest.raises(ValueError, match="unknown bound 'exact'; known: lower, upper"):
+        quality.isotropic_discrepancy(x, "exact")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="for 2 dimensions, not 3"):
+        quality.isotropic_discrepancy([[0.5] * 3])
+    with pytest.raises(ValueError, match=r"coordinate 0 of point 0 must be in \[0, 1\], not NaN"):
+        quality.isotropic_discrepancy([[np.nan, 0.5]])

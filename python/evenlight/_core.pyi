@@ -33,6 +33,7 @@ __all__ = [
     "gain_coefficient",
     "heuristics",
     "integrators",
+    "isotropic_discrepancy",
     "kernels",
     "l2_discrepancy",
     "lattice_error",
@@ -175,6 +176,9 @@ def local_discrepancy(x: NDArray[np.float64], corners: NDArray[np.float64], clos
 def dispersion(x: NDArray[np.float64], torus: bool, limit: int) -> tuple[float, list[float], list[float]]: ...
 def extreme_discrepancy(x: NDArray[np.float64]) -> tuple[float, list[float], list[float], bool]: ...
 def gain_coefficient(x: NDArray[np.float64], levels: Sequence[int | None], base: int) -> float: ...
+def isotropic_discrepancy(
+    x: NDArray[np.float64], sectors: int, workers: int
+) -> tuple[float, list[list[float]], bool, float]: ...
 def l2_discrepancy(
     x: NDArray[np.float64], measure: str, weights: Sequence[float] | None, algorithm: str, workers: int
 ) -> float: ...

@@ -18,6 +18,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dispersion, module)?)?;
     module.add_function(wrap_pyfunction!(extreme_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(gain_coefficient, module)?)?;
+    module.add_function(wrap_pyfunction!(isotropic_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(l2_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(local_discrepancy, module)?)?;
     module.add_function(wrap_pyfunction!(smallest_t, module)?)?;
@@ -210,4 +211,18 @@ fn extreme_discrepancy(py: Python<'_>, x: Points<'_>) -> PyResult<(f64, Vec<f64>
     let x = rows(&x)?;
     let found = py.detach(|| quality::extreme::extreme_discrepancy(&x));
     Ok((found.value, found.lower, found.upper, found.closed))
+}
+
+/// The discrepancy of the worst convex set that is known, its corners, whether it is closed, and an upper bound.
+#[pyfunction]
+fn isotropic_discrepancy(
+    py: Python<'_>,
+    x: Points<'_>,
+    sectors: usize,
+    workers: NonZeroUsize,
+) -> PyResult<(f64, Vec<[f64; 2]>, bool, f64)> {
+    let x = rows(&x)?;
+    let found =
+        py.detach(|| quality::isotropic::isotropic_discrepancy(&x, sectors, workers)).map_err(raise)?;
+    Ok((found.worst.value, found.worst.vertices, found.worst.closed, found.upper))
 }

@@ -6,6 +6,7 @@ in [0, 1], whoever made it.
 
 from .boxes import EmptyBox, ExtremeDiscrepancy, dispersion, extreme_discrepancy
 from .effective import EffectiveDimension, effective_dimension
+from .isotropic import IsotropicDiscrepancy, isotropic_discrepancy
 from .l2 import discrepancy
 from .lattice_criteria import digital_net_error, lattice_error
 from .local import local_discrepancy
@@ -21,6 +22,7 @@ __all__ = [
     "EffectiveDimension",
     "EmptyBox",
     "ExtremeDiscrepancy",
+    "IsotropicDiscrepancy",
     "PairCorrelation",
     "RadialSpectrum",
     "SobolIndices",
@@ -34,6 +36,7 @@ __all__ = [
     "gain_coefficients",
     "hardy_krause_variation",
     "is_net",
+    "isotropic_discrepancy",
     "koksma_hlawka_bound",
     "lattice_error",
     "local_discrepancy",

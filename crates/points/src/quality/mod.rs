@@ -6,6 +6,7 @@
 //!   [`threshold_accepting`] (lower bounds), [`bracketing`] (upper bounds);
 //! * [`l2`]: mean squares instead of the largest error;
 //! * [`triangle`]: points in a triangle; [`extreme`] and [`dispersion`]: the worst and the largest empty of all boxes;
+//! * [`isotropic`]: the worst of all convex sets, in two dimensions;
 //! * [`nets`]: points as nets: elementary intervals and gain coefficients;
 //! * [`lattice_criteria`]: worst-case errors of lattices and nets in weighted spaces of functions;
 //! * [`t_value`](mod@t_value): the quality parameter of a digital net, from its matrices.
@@ -19,6 +20,7 @@ mod dem_leaf;
 pub mod dispersion;
 pub mod extreme;
 mod halves;
+pub mod isotropic;
 mod kinetic;
 pub mod l2;
 pub mod lattice_criteria;
