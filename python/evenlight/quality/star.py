@@ -2,7 +2,7 @@
 
 import operator
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple, Self, SupportsIndex, get_args
+from typing import Any, Literal, NamedTuple, SupportsIndex, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,7 @@ import numpy.typing as npt
 from evenlight import _core
 
 from .rows import as_rows
+from .worst_set import Kind, WorstSetDiscrepancy
 
 __all__ = ["StarDiscrepancy", "star_discrepancy", "star_discrepancy_cost"]
 
@@ -19,14 +20,14 @@ Method = Literal["auto", "certain", "sweep", "dem", "threshold_accepting", "brac
 class Evidence(NamedTuple):
     """What is known besides the number itself."""
 
-    kind: Literal["exact", "lower", "upper"]
+    kind: Kind
     box: tuple[float, ...]
     closed: bool
     attained: float
     method: str
 
 
-class StarDiscrepancy(float):
+class StarDiscrepancy(WorstSetDiscrepancy[Evidence]):
     """A star discrepancy or a bound: a number that says which.
 
     Attributes
@@ -54,37 +55,10 @@ class StarDiscrepancy(float):
     (0.75, 'exact', [0.5, 0.5], True)
     """
 
-    evidence: Evidence
-
-    def __new__(cls, value: float, evidence: Evidence) -> Self:
-        """Attach the evidence to the number."""
-        made = super().__new__(cls, value)
-        made.evidence = evidence
-        return made
-
-    def __getnewargs__(self) -> tuple[float, Evidence]:  # type: ignore[override]
-        """What pickle needs."""
-        return float(self), self.evidence
-
-    @property
-    def value(self) -> float:
-        """The number itself."""
-        return float(self)
-
-    @property
-    def kind(self) -> Literal["exact", "lower", "upper"]:
-        """What the number says."""
-        return self.evidence.kind
-
     @property
     def box(self) -> npt.NDArray[np.float64]:
         """The upper corner of the worst box that is known."""
         return np.array(self.evidence.box)
-
-    @property
-    def closed(self) -> bool:
-        """Whether that box is closed and has too many points."""
-        return self.evidence.closed
 
     @property
     def attained(self) -> float:
@@ -105,9 +79,6 @@ class StarDiscrepancy(float):
     def method(self) -> str:
         """The algorithm that was used."""
         return self.evidence.method
-
-    def __repr__(self) -> str:
-        return f"StarDiscrepancy({float(self)!r}, kind={self.kind!r})"
 
 
 def star_discrepancy(
