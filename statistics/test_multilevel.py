@@ -12,7 +12,6 @@ from scipy import special
 
 from evenlight.estimate import Estimate
 from evenlight.multilevel import (
-    FunctionSampler,
     LevelDistribution,
     MultilevelWarning,
     debias,
@@ -21,6 +20,7 @@ from evenlight.multilevel import (
 )
 from evenlight.multilevel.models import GeometricBrownianMotion
 from evenlight.points import Independent
+from toy_levels import ExponentialSeries
 
 PRICES = {
     "european": 10.4505835722,
@@ -105,18 +105,14 @@ def test_evenly_spread_points_save_ten_times_on_the_smooth_asian_option() -> Non
     assert estimate.cost * 10 < independent
 
 
-def series(level: int, u: Any) -> tuple[Any, Any]:
-    """Partial sums of the series of e."""
-    sums = np.cumsum([0.0] + [1.0 / math.factorial(term) for term in range(level + 1)])
-    return np.full(len(u), sums[-1]), np.full(len(u), sums[-2])
-
-
 @pytest.mark.parametrize(
-    ("method", "square"), [("single", 2.0 * special.i0(2.0 * math.sqrt(2.0))), ("independent", 11.5869773565)]
+    ("method", "square"),
+    [("single", 2.0 * special.i0(2.0 * math.sqrt(2.0))), ("coupled", 11.5869773565), ("independent", 11.5869773565)],
 )
 def test_ten_million_values_of_a_series_have_no_bias(method: str, square: float) -> None:
-    model = FunctionSampler(series, cost=lambda level: 1.0)
-    estimate = debias(model, n=10**7, method=method, distribution=LevelDistribution.geometric(1.0), seed=3)
+    estimate = debias(
+        ExponentialSeries(), n=10**7, method=method, distribution=LevelDistribution.geometric(1.0), seed=3
+    )
     assert abs(estimate.value - math.e) < 3 * math.sqrt((square - math.e**2) / 1e7)
     assert estimate.standard_error**2 * 1e7 == pytest.approx(square - math.e**2, rel=0.01)
 
@@ -128,6 +124,13 @@ def test_ten_million_values_of_an_option_have_no_bias() -> None:
     assert abs(estimate.value - PRICES["european"]) < 3 * estimate.standard_error
     assert estimate.standard_error**2 * 1e7 == pytest.approx(356.0, rel=0.05)
     assert estimate.cost / 1e7 == pytest.approx(1.5 * 2.207 - 0.5 * 0.646, rel=0.01)
+
+
+def test_ten_million_coupled_values_of_an_option_have_no_bias() -> None:
+    model = GeometricBrownianMotion("european", "milstein")
+    estimate = debias(model, n=10**7, method="coupled", distribution=LevelDistribution.geometric(1.5), seed=2)
+    assert abs(estimate.value - PRICES["european"]) < 3 * estimate.standard_error
+    assert estimate.standard_error < 0.01
 
 
 def test_the_best_random_level_needs_less_than_a_geometric_one() -> None:
