@@ -15,7 +15,7 @@ from .diagnostics import Diagnostics, diagnose
 from .driving import Driving
 from .kernel import Array
 
-__all__ = ["Chains"]
+__all__ = ["Chains", "values_at"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +123,7 @@ class Chains:
         ValueError
             If the draws were not kept, or a value is not finite.
         """
-        values = self._values(functional or (lambda x: x))
+        values = values_at(functional or (lambda x: x), self.kept_draws())
         independent = self.kernel.random and self.points.independent_steps and self.points.coupled == 1
         return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent)
 
@@ -163,16 +163,16 @@ class Chains:
             if functional not in self.means:
                 raise ValueError(f"no functional {functional!r} in this run; known: {', '.join(self.means) or 'none'}")
             return self.means[functional]
-        return np.asarray(self._values(functional).mean(axis=1))
+        return np.asarray(values_at(functional, self.kept_draws()).mean(axis=1))
 
-    def _values(self, functional: Callable[[Any], Any]) -> Array:
-        """Values at all draws, shape (chains, n, ...)."""
-        draws = self.kept_draws()
-        rows = draws.reshape(-1, draws.shape[2])
-        values = np.asarray(functional(rows), np.float64)
-        if values.shape[:1] != (len(rows),):
-            raise ValueError(f"the function must return an array of shape ({len(rows)}, ...), not {values.shape}")
-        if not np.isfinite(values).all():
-            row = int(np.argmin(np.isfinite(values).reshape(len(rows), -1).all(axis=1)))
-            raise ValueError(f"the function is {values[row].tolist()} at {rows[row].tolist()}")
-        return np.asarray(values.reshape(*draws.shape[:2], *values.shape[1:]))
+
+def values_at(function: Callable[[Any], Any], points: Array) -> Array:
+    """The values of a function of rows at points of shape (chains, n, d), shape (chains, n, ...)."""
+    rows = points.reshape(-1, points.shape[2])
+    values = np.asarray(function(rows), np.float64)
+    if values.shape[:1] != (len(rows),):
+        raise ValueError(f"the function must return an array of shape ({len(rows)}, ...), not {values.shape}")
+    if not np.isfinite(values).all():
+        row = int(np.argmin(np.isfinite(values).reshape(len(rows), -1).all(axis=1)))
+        raise ValueError(f"the function is {values[row].tolist()} at {rows[row].tolist()}")
+    return np.asarray(values.reshape(*points.shape[:2], *values.shape[1:]))
