@@ -116,12 +116,16 @@ def divergence(count: int) -> str:
 
 
 def split_r_hat(values: Array) -> Array:
-    """R-hat of halves of chains for values (chains, n, k), without ranks: for means, and in no time; NaN if n < 4."""
+    """R-hat of halves of chains for values (chains, n, k), without ranks: for means, and in no time.
+
+    NaN if n < 4 or all values are the same, infinite if only those of each half are.
+    """
     from arviz_stats.base import array_stats
 
     if values.shape[1] < 4:
         return np.full(values.shape[2], np.nan)
-    return np.asarray(array_stats.rhat(values, chain_axis=0, draw_axis=1, method="split"), np.float64)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(array_stats.rhat(values, chain_axis=0, draw_axis=1, method="split"), np.float64)
 
 
 def diagnose(values: Array, acceptance: Array, independent: bool, divergences: int = 0) -> Diagnostics:
