@@ -24,6 +24,7 @@ from evenlight.mcmc import (
     Independence,
     Info,
     MetropolisHastings,
+    Microcanonical,
     MultipleTry,
     ParallelTempering,
     PrimarySampleSpace,
@@ -108,6 +109,11 @@ CASES = {
     ),
     "hmc": Case(HMC(banana, banana_gradient, step_size=0.15, steps=12, covariance=[1.0, 1.5])),
     "mala": Case(MALA(banana, banana_gradient, step_size=0.5, covariance=[[1.0, -0.2], [-0.2, 1.2]])),
+    "microcanonical": Case(
+        Microcanonical(
+            banana, banana_gradient, step_size=0.6, steps=12, decades=1.0, covariance=[[1.0, 0.3], [0.3, 1.5]]
+        )
+    ),
     "slice": Case(Slice(banana, width=[1.0, 2.0], steps_out=3, tries=6)),
     "parallel_tempering": Case(ParallelTempering(banana, BETAS, within)),
     "delayed_rejection": Case(DelayedRejection(banana, scale=1.5, shrink=0.3)),
@@ -262,6 +268,12 @@ def test_finite_differences_are_gradients() -> None:
         (lambda: HMC(banana, "guess"), ValueError, "unknown gradient 'guess'; known: finite-differences, jax, torch"),
         (lambda: HMC(banana, WRONG), TypeError, "'finite-differences' works with every log density"),
         (lambda: HMC(banana, banana_gradient, steps=0), ValueError, "steps must be at least 1"),
+        (
+            lambda: Microcanonical(banana, banana_gradient, decades=-1.0),
+            ValueError,
+            "decades must be finite and",
+        ),
+        (lambda: Microcanonical(exponential, minus_one).init(np.ones((4, 1))), ValueError, "at least 2 dimensions"),
         (lambda: MetropolisHastings(banana, WRONG), TypeError, "proposal must be a Proposal"),
         (lambda: Slice(banana, width=[1.0, -1.0]), ValueError, "width must be finite and above 0"),
         (lambda: DelayedRejection(banana, shrink=1.0), ValueError, "shrink must be between 0 and 1"),

@@ -1,4 +1,4 @@
-"""Hamiltonian dynamics: reversible, volume-preserving, of second order, stable below 2; HMC on a narrow normal."""
+"""Dynamics: reversible, volumes kept or known, of second order, stable below 2; HMC on a narrow normal."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy import stats
 
-from evenlight.mcmc import HMC, NUTS, RandomWalk, run
+from evenlight.mcmc import HMC, NUTS, Microcanonical, RandomWalk, run
 from evenlight.mcmc.leapfrog import GradientState, Trajectory, gradient_state, leapfrog
 
 
@@ -106,6 +107,57 @@ def test_the_mean_of_the_exponential_of_energy_errors_is_one() -> None:
     kernel = HMC(quartic, quartic_gradient, step_size=0.4, steps=8)
     weights = np.exp(-run(kernel, [0.5, 0.5], n=1, chains=4000, burn_in=60, seed=2).info["energy_error"][:, 0])
     assert abs(weights.mean() - 1) < 4 * weights.std() / 4000**0.5 < 0.05
+
+
+def microcanonical_end(x: Any, angles: Any, steps: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where trajectories of two dimensions end, in positions and angles, and their work."""
+    kernel = Microcanonical(quartic, quartic_gradient, covariance=ROOT @ ROOT.T)
+    state = gradient_state(quartic, quartic_gradient, x)
+    u = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    ends = np.full(len(x), steps), np.full(len(x), 0.15)
+    end, u, work = kernel.trajectory(state, u, *ends)
+    return end.position, np.arctan2(u[:, 1], u[:, 0]), work
+
+
+def test_microcanonical_trajectories_are_reversible() -> None:
+    x, angle = np.array([[0.7, -0.4]]), np.array([0.3])
+    position, turned, work = microcanonical_end(x, angle, 60)
+    back, again, undone = microcanonical_end(position, turned + np.pi, 60)
+    np.testing.assert_allclose(back, x, atol=1e-12)
+    np.testing.assert_allclose(np.cos(again - np.pi - angle), 1, atol=1e-12)
+    np.testing.assert_allclose(undone, -work, atol=1e-12)
+
+
+def test_microcanonical_work_is_that_of_density_and_volume() -> None:
+    """Minus the logarithms of the densities' ratio and of the Jacobian's determinant, that by central differences."""
+    start, step = np.array([0.7, -0.4, 0.3]), 1e-5
+    rows = start + step * np.concatenate([np.eye(3), -np.eye(3), np.zeros((1, 3))])
+    position, angles, work = microcanonical_end(rows[:, :2], rows[:, 2], 12)
+    ends = np.column_stack([position, angles])
+    volume = np.linalg.det((ends[:3] - ends[3:6]) / (2 * step))
+    ratio = quartic(position[6:]) - quartic(start[None, :2])
+    assert abs(np.log(volume)) > 0.05
+    assert work[6] == pytest.approx(-ratio[0] - np.log(volume), abs=1e-7)
+
+
+def test_microcanonical_trajectories_that_leave_the_numbers_are_rejected() -> None:
+    """On the half line x > 0 with a gradient that is no number outside: draws stay exact, to 1 in 10,000."""
+
+    def half(x: Any) -> Any:
+        return np.where(x[:, 0] > 0, -x[:, 0] - 0.5 * x[:, 1] ** 2, -np.inf)
+
+    def slopes(x: Any) -> Any:
+        return np.where(x[:, :1] > 0, np.stack([-np.ones(len(x)), -x[:, 1]], axis=1), np.nan)
+
+    rng = np.random.default_rng(4)
+    kernel = Microcanonical(half, slopes, step_size=0.8, steps=5, decades=1.0)
+    state = kernel.init(np.stack([rng.exponential(size=10_000), rng.normal(size=10_000)], axis=1))
+    for _ in range(6):
+        state, info = kernel.step(state, rng.uniform(size=(10_000, kernel.dims(2))))
+    assert np.isinf(info.energy_error).any()
+    assert state.position[:, 0].min() > 0
+    assert stats.kstest(state.position[:, 0], "expon").pvalue > 1e-4
+    assert stats.kstest(state.position[:, 1], "norm").pvalue > 1e-4
 
 
 RHO = 0.99

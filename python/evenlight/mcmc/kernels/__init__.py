@@ -9,6 +9,7 @@ from .hmc import HMC
 from .independence import Independence
 from .mala import MALA
 from .metropolis_hastings import MetropolisHastings, Proposal
+from .microcanonical import Microcanonical
 from .multiple_try import MultipleTry
 from .parallel_tempering import ParallelTempering
 from .primary_sample_space import PrimarySampleSpace
@@ -24,6 +25,7 @@ __all__ = [
     "HerdedGibbs",
     "Independence",
     "MetropolisHastings",
+    "Microcanonical",
     "MultipleTry",
     "ParallelTempering",
     "PrimarySampleSpace",
@@ -39,6 +41,7 @@ _ALL: tuple[type[Kernel], ...] = (
     Gibbs,
     HMC,
     MALA,
+    Microcanonical,
     Slice,
     ParallelTempering,
     DelayedRejection,
