@@ -22,15 +22,9 @@ from evenlight.multilevel.models import (
 )
 from evenlight.points import Sobol
 from level_moments import exponent, moments
+from option_prices import PRICES
 
 PAYOFFS = ["european", "asian", "lookback", "barrier", "digital"]
-PRICES = {
-    "european": 10.4505835722,
-    "asian": 5.76309,
-    "lookback": 17.2168022374,
-    "barrier": 9.9492703086,
-    "digital": 53.2324815454,
-}
 
 
 @pytest.mark.parametrize("payoff", ["european", "lookback", "barrier", "digital"])

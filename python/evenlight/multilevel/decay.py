@@ -19,7 +19,7 @@ LEAST = 0.5
 """The least α and β that a regression may find (Giles 2015, section 3.4)."""
 MISFIT = 0.25
 """Of log2: how far levels stray from a power, besides their statistical error."""
-_PRIOR = 4.0  # the inverse variance of what is known of alpha before anything is measured
+_PRIOR = 64.0  # the inverse variance of what is known of alpha before means are measured
 
 
 class Rates(NamedTuple):
@@ -58,19 +58,19 @@ def measure_rates(rows: Sequence[LevelRow], alpha: float | None, beta: float | N
     return Rates(alpha, beta, gamma=_slope(levels, costs, np.zeros_like(costs)))
 
 
-def remaining_bias(rows: Sequence[LevelRow], alpha: float | None) -> Array:
+def remaining_bias(rows: Sequence[LevelRow], alpha: float | None, beta: float = math.inf) -> Array:
     """A bound on the sum of all means beyond the last level, from those of the last three (Giles 2015, section 3.4).
 
-    A measured alpha is drawn towards 1, the weak order of most schemes, by what one more level would say: noise, and
-    first levels that fall faster than later ones, count less. Where means of both signs are sure, they do not fall
-    yet, and the largest of them counts as if it were the last.
+    A measured alpha is drawn towards 1, the weak order of most schemes, or towards β if that is less, as where payoffs
+    jump: means of differences are mostly noise, their variances are known better. Where means of both signs are sure,
+    they do not fall yet, and the largest of them counts as if it were the last.
     """
     used = [row for row in rows if row.level >= 1]
     means = np.array([np.atleast_1d(row.mean) for row in used])
     errors = relative_errors(used, "mean")
     if alpha is None:
         levels = np.array([row.level for row in used], np.float64)
-        alpha = max(LEAST, -_slope(levels, np.abs(means), errors, cautious=True))
+        alpha = max(LEAST, -_slope(levels, np.abs(means), errors, expected=min(1.0, beta)))
     sure = np.where(errors < 0.5, np.sign(means), 0.0)[-3:]
     turns = (sure.min(axis=0) < 0) & (sure.max(axis=0) > 0)
     distance = rows[-1].level - np.array([[row.level] for row in used[-3:]])
@@ -100,13 +100,13 @@ def given_rate(name: str, rate: float | None) -> float | None:
     return rate
 
 
-def _slope(levels: Array, values: Array, relative_errors: Array, cautious: bool = False) -> float:
+def _slope(levels: Array, values: Array, relative_errors: Array, expected: float | None = None) -> float:
     """The largest slope of log2 of a column of values in the level; 0 from one level."""
-    slopes = [_one_slope(levels, *pair, cautious) for pair in zip(values.T, relative_errors.T, strict=True)]
+    slopes = [_one_slope(levels, *pair, expected) for pair in zip(values.T, relative_errors.T, strict=True)]
     return max(slopes, default=0.0)
 
 
-def _one_slope(levels: Array, values: Array, relative_errors: Array, cautious: bool) -> float:
+def _one_slope(levels: Array, values: Array, relative_errors: Array, expected: float | None) -> float:
     known = (values > 0) & np.isfinite(values)
     if known.sum() < 2:
         return 0.0
@@ -115,4 +115,4 @@ def _one_slope(levels: Array, values: Array, relative_errors: Array, cautious: b
     x = x - (weights @ x) / weights.sum()
     information = float((weights * x) @ x)
     slope = float((weights * x) @ y) / information
-    return (slope * information - _PRIOR) / (information + _PRIOR) if cautious else slope
+    return slope if expected is None else (slope * information - expected * _PRIOR) / (information + _PRIOR)

@@ -12,7 +12,6 @@ from evenlight.arguments import integer
 
 __all__ = ["Goal"]
 
-_SHARE = 0.75  # of the squared tolerance; the rest is for errors in estimated variances and rates
 _DEEPEST = 20  # levels, where neither sampler nor caller say
 
 
@@ -26,10 +25,19 @@ class Goal:
     max_cost: float
     exact: bool
     """Whether nothing is beyond `max_level`."""
+    share: float
+    """Of the squared tolerance, for bias and variance as estimated; the rest is for errors of these estimates."""
 
     @classmethod
     def of(
-        cls, sampler: Any, rmse: float, max_level: SupportsIndex | None, max_cost: float, alpha: float | None
+        cls,
+        sampler: Any,
+        rmse: float,
+        max_level: SupportsIndex | None,
+        max_cost: float,
+        alpha: float | None,
+        *,
+        share: float,
     ) -> Goal:
         """Check the arguments of a run over levels."""
         finest = getattr(sampler, "max_level", None)
@@ -40,10 +48,10 @@ class Goal:
         needed = 2 if alpha is None else 1
         if last < needed and not exact:
             raise ValueError(f"max_level = {last} is too coarse to know the bias; levels 0 to {needed} are needed")
-        return cls.plain(sampler, rmse, int(last), max_cost, exact)
+        return cls.plain(sampler, rmse, int(last), max_cost, exact, share=share)
 
     @classmethod
-    def plain(cls, sampler: Any, rmse: float, max_level: Any, max_cost: float, exact: bool) -> Goal:
+    def plain(cls, sampler: Any, rmse: float, max_level: Any, max_cost: float, exact: bool, *, share: float) -> Goal:
         """Check what does not depend on how levels are numbered."""
         for name in ("dims", "sample", "cost"):
             if not callable(getattr(sampler, name, None)):
@@ -52,15 +60,15 @@ class Goal:
             raise ValueError(f"rmse must be above 0, not {rmse}")
         if not max_cost > 0.0:
             raise ValueError(f"max_cost must be above 0, not {max_cost}")
-        return cls(float(rmse), max_level, float(max_cost), exact)
+        return cls(float(rmse), max_level, float(max_cost), exact, share)
 
     def fits(self, rmse: float, bias: Any) -> bool:
         """Whether the squared bias is at most half of what is to be spent of the squared tolerance."""
-        return bool(np.all(np.asarray(bias) ** 2 <= 0.5 * _SHARE * rmse**2))
+        return bool(np.all(np.asarray(bias) ** 2 <= 0.5 * self.share * rmse**2))
 
     def variance(self, rmse: float, bias: Any) -> Any:
         """What the variance of the estimate may be: what the bias leaves, at least half: the bias will yet shrink."""
-        return np.maximum(_SHARE * rmse**2 - np.asarray(bias) ** 2, 0.5 * _SHARE * rmse**2)
+        return np.maximum(self.share * rmse**2 - np.asarray(bias) ** 2, 0.5 * self.share * rmse**2)
 
     @property
     def too_coarse(self) -> str:

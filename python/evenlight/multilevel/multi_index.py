@@ -25,6 +25,7 @@ __all__ = ["multi_index"]
 Array = NDArray[np.float64]
 
 _PILOT = (256, 128, 64, 32)  # samples of the first pairs, by the sum of their levels
+_SHARE = 0.75  # of the squared tolerance, for bias and variance as estimated
 _BEYOND = 24  # levels beyond the sampled ones whose bias is added up
 _FIRST: tuple[Pair, ...] = tuple((i, total - i) for total in range(4) for i in range(total + 1))
 
@@ -71,10 +72,9 @@ def multi_index(
     -----
     The set of pairs grows one by one: of those whose predecessors are all there, the one whose mean is largest for what
     it adds to the cost. Means and variances of pairs that are not sampled follow from a plane through the
-    logarithms of those that are; the sum of such means is the bias. Samples are distributed as in `mlmc`.
-
-    The plane must be one: where differences do not fall evenly, as with the terms of a random field taken in by
-    doubling, errors at large tolerances were up to 4 times the tolerance. A small tolerance samples more pairs.
+    logarithms of those that are, but the mean of a pair that comes next counts at least as much as the smallest of
+    its predecessors: differences need not fall evenly, as where a mesh is too coarse for the terms of a random field.
+    The sum of such means is the bias. Samples are distributed as in `mlmc`.
 
     Where mixed differences fall as products, the cost is that of the worse of both directions, up to logarithms.
 
@@ -106,7 +106,7 @@ def multi_index(
     """
     last = _last(sampler)
     exact = bool(getattr(sampler, "exact", False))
-    run = _Run(sampler, seed_number(seed), Goal.plain(sampler, rmse, last, max_cost, exact))
+    run = _Run(sampler, seed_number(seed), Goal.plain(sampler, rmse, last, max_cost, exact, share=_SHARE))
     return warn(run.estimate(run.reach()))
 
 
@@ -118,6 +118,10 @@ def _last(sampler: Any) -> tuple[float, float]:
     if min(first, second) < 2:
         raise ValueError(f"max_level = {finest} is too coarse to know the bias; levels 0 to 2 of each are needed")
     return first, second
+
+
+def _predecessors(i: int, j: int) -> list[Pair]:
+    return [pair for pair in ((i - 1, j), (i, j - 1)) if min(pair) >= 0]
 
 
 class _Run:
@@ -178,6 +182,8 @@ class _Run:
             sizes = [min(size, last + 1) for size, last in zip(sizes, self._goal.max_level, strict=True)]
         beyond = self._means.at(*np.indices(sizes))
         beyond[tuple(np.array(list(self._levels)).T)] = 0.0
+        for pair in self._candidates():
+            beyond[pair] = self._expected_mean(pair)
         shape = np.shape(self._rows[0, 0].mean)
         self._bias = beyond.sum(axis=(0, 1)).reshape(shape)
         first, second = np.indices(sizes)
@@ -202,18 +208,28 @@ class _Run:
             variances[late] = np.maximum(variances[late], 0.5 * expected)
         return variances
 
-    def _best(self) -> Pair | None:
-        """The pair to add: the largest mean for what it adds to the cost, all of its predecessors there."""
+    def _candidates(self) -> list[Pair]:
+        """The pairs that may be added: all of their predecessors are there."""
         outside = {(i + di, j + dj) for i, j in self._levels for di, dj in ((1, 0), (0, 1))} - set(self._levels)
         first, second = self._goal.max_level
-        candidates = [
+        return [
             (i, j)
             for i, j in sorted(outside)
-            if i <= first and j <= second and all(p in self._levels for p in ((i - 1, j), (i, j - 1)) if min(p) >= 0)
+            if i <= first and j <= second and all(p in self._levels for p in _predecessors(i, j))
         ]
+
+    def _expected_mean(self, pair: Pair) -> Array:
+        """Of a candidate: what the plane says, and no less than the smallest of its predecessors."""
+        below = [np.abs(np.atleast_1d(self._rows[p].mean)) for p in _predecessors(*pair)]
+        return np.asarray(np.maximum(self._means.at(*pair), np.min(below, axis=0)))
+
+    def _best(self) -> Pair | None:
+        """The candidate with the largest mean for what it adds to the cost."""
         roots = self._roots()
         return max(
-            candidates, key=lambda pair: float(np.max(self._means.at(*pair) / self._price(pair, roots))), default=None
+            self._candidates(),
+            key=lambda pair: float(np.max(self._expected_mean(pair) / self._price(pair, roots))),
+            default=None,
         )
 
     def _roots(self) -> Any:
@@ -235,5 +251,5 @@ class _Run:
             return True
         now = roots**2 / goal.variance(goal.rmse, bias)
         then = now + self._price(pair, roots)
-        then *= goal.variance(goal.rmse, bias) / goal.variance(goal.rmse, bias - self._means.at(*pair))
+        then *= goal.variance(goal.rmse, bias) / goal.variance(goal.rmse, bias - self._expected_mean(pair))
         return float(np.max(then)) < float(np.max(now))

@@ -119,7 +119,8 @@ class IndexedDiffusion1D(MixedDifference):
     field : {"log_normal", "uniform"} or Field
         The coefficient a; its number of terms ends the second direction.
     first_cells, first_terms : int
-        On level (0, 0); both double per level.
+        On level (0, 0); both double per level. Meshes much coarser than the terms of the field cannot see them: mixed
+        differences then grow before they fall.
 
     Raises
     ------
@@ -142,7 +143,7 @@ class IndexedDiffusion1D(MixedDifference):
         self,
         field: str | Field = "log_normal",
         *,
-        first_cells: SupportsIndex = 4,
+        first_cells: SupportsIndex = 8,
         first_terms: SupportsIndex = 1,
     ) -> None:
         self.field = as_field(field)
