@@ -169,8 +169,8 @@ def draw(sampler: Any, level: Any, u: Array) -> Coupled:
     if fine.ndim not in (1, 2) or len(fine) != len(u) or coarse.shape != fine.shape:
         expected = f"fine and coarse of one shape ({len(u)},) or ({len(u)}, k)"
         raise ValueError(f"{where} must return {expected}, not {fine.shape} and {coarse.shape}")
-    finite = np.isfinite(fine).reshape(len(u), -1).all(axis=1) & np.isfinite(coarse).reshape(len(u), -1).all(axis=1)
-    if not finite.all():
+    if not (np.isfinite(fine).all() and np.isfinite(coarse).all()):
+        finite = (np.isfinite(fine) & np.isfinite(coarse)).reshape(len(u), -1).all(axis=1)
         row = int(np.argmin(finite))
         raise ValueError(f"{where} is {fine[row].tolist()} and {coarse[row].tolist()} at row {row} of a block")
     if not (math.isfinite(coupled.cost) and coupled.cost > 0):
