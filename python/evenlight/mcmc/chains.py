@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,8 +28,8 @@ class Chains:
         The position after each step that counts; None if they were not kept.
     info : dict
         What the kernel told, by name: arrays (chains, n, ...).
-    means : dict
-        Means of the functionals over each chain, shape (chains, ...).
+    sums : dict
+        Of the functionals over the steps of each chain, shape (chains, ...).
     kernel : Kernel
         With the settings that a warm-up has left.
     points : Driving
@@ -40,6 +40,8 @@ class Chains:
         Of the run.
     steps_before : tuple of int
         Steps of warm-up and of burn-in.
+    given : Kernel
+        As it was before the warm-up.
 
     Examples
     --------
@@ -51,17 +53,23 @@ class Chains:
 
     draws: Array | None
     info: dict[str, Any]
-    means: dict[str, Array]
+    sums: dict[str, Array]
     kernel: Any
     points: Driving
     state: Any
     seed: int
-    steps_before: tuple[int, int] = field(default=(0, 0))
+    steps_before: tuple[int, int]
+    given: Any
 
     @property
     def n(self) -> int:
         """The steps that count, of each chain."""
         return int(self.info["acceptance"].shape[1])
+
+    @property
+    def means(self) -> dict[str, Array]:
+        """Means of the functionals over each chain, shape (chains, ...)."""
+        return {name: total / self.n for name, total in self.sums.items()}
 
     @property
     def acceptance(self) -> Array:
