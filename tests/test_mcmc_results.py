@@ -96,6 +96,10 @@ def test_chains_convert_to_arviz() -> None:
     assert set(tree["sample_stats"]) == {"acceptance_rate", "accepted", "energy_error", "n_steps", "diverging"}
     assert tree.attrs["kernel"] == "hmc"
     assert arviz_base.extract(tree, group="posterior").sizes["sample"] == 150
+    mapped = chains.to_arviz({"radius": lambda x: np.hypot(x[:, 0], x[:, 1]), "both": np.exp})["posterior"]
+    assert mapped["radius"].to_numpy() == pytest.approx(np.hypot(*np.moveaxis(chains.kept_draws(), 2, 0)))
+    assert mapped["both"].shape == (3, 50, 2)
+    assert repr(chains).startswith("Chains(3 of 50 steps in 2 dimensions, hmc driven by independent, seed=0, mean")
 
 
 def test_records_become_figures() -> None:
@@ -107,6 +111,14 @@ def test_records_become_figures() -> None:
         out = io.BytesIO()
         figure.savefig(out, format="svg")
         assert len(out.getvalue()) > 5000
+    squares = mcmc.trace_record(chains, most=100, functional=lambda x: x[:, 0] ** 2)
+    np.testing.assert_array_equal(squares.values[:, :, 0], chains.kept_draws()[:, ::4, 0] ** 2)
+    assert [panel.get_ylabel() for panel in mcmc.trace_figure(squares).axes] == ["f[0]"]
+    legend = mcmc.rank_figure(ranks).axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["chain 0", "chain 1", "chain 2", "chain 3"]
+    assert (
+        mcmc.rank_record(chains, bins=8, functional=lambda x: -x).counts[0, ::-1].tolist() == ranks.counts[0].tolist()
+    )
     lean = run(RandomWalk(normal), [0.0], n=10, keep_draws=False)
     with pytest.raises(ValueError, match="kept no draws"):
         mcmc.trace_record(lean)

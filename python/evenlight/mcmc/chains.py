@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from .kernel import Array
 __all__ = ["Chains", "values_at"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Chains:
     """Chains of one run.
 
@@ -60,6 +60,14 @@ class Chains:
     seed: int
     steps_before: tuple[int, int]
     given: Any
+
+    def __repr__(self) -> str:
+        """Show what ran; `diagnostics()` shows how it went."""
+        count, d = self.state.position.shape
+        return (
+            f"Chains({count} of {self.n} steps in {d} dimensions, {self.kernel.name} driven by {self.points.name}, "
+            f"seed={self.seed}, mean acceptance {self.acceptance.mean():.2f})"
+        )
 
     @property
     def n(self) -> int:
@@ -144,8 +152,14 @@ class Chains:
         independent = self.kernel.random and self.points.independent_steps and self.points.coupled == 1
         return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent, self.divergences)
 
-    def to_arviz(self) -> Any:
-        """Convert to what ArviZ plots and summarizes: a group `posterior` with `x`, a group `sample_stats`.
+    def to_arviz(self, variables: Mapping[str, Callable[[Any], Any]] | None = None) -> Any:
+        """Convert to what ArviZ plots and summarizes: groups `posterior` and `sample_stats`.
+
+        Parameters
+        ----------
+        variables : mapping of str to callable, optional
+            What `posterior` is to have: functions from positions (m, d) to values (m,) or (m, ...). By default the
+            positions, as `x`.
 
         Returns
         -------
@@ -157,7 +171,7 @@ class Chains:
         ImportError
             If arviz-base is not installed.
         ValueError
-            If the draws were not kept.
+            If the draws were not kept, or a value is not finite.
         """
         try:
             import arviz_base
@@ -165,7 +179,9 @@ class Chains:
             raise ImportError("to_arviz needs arviz-base: pip install 'evenlight[arviz]'") from None
         names = {"acceptance": "acceptance_rate", "gradients": "n_steps"}
         told = {names.get(name, name): column for name, column in self.info.items()}
-        tree = arviz_base.from_dict({"posterior": {"x": self.kept_draws()}, "sample_stats": told})
+        draws = self.kept_draws()
+        shown = {name: values_at(function, draws) for name, function in (variables or {"x": lambda x: x}).items()}
+        tree = arviz_base.from_dict({"posterior": shown, "sample_stats": told})
         tree.attrs.update(kernel=self.kernel.name, driven_by=repr(self.points), seed=str(self.seed))
         return tree
 

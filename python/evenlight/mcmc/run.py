@@ -97,11 +97,7 @@ def run(
     >>> more.n, bool((more.draws[:, :100] == chains.draws).all())
     (400, True)
     """
-    driving = IndependentNumbers() if points is None else points
-    if not isinstance(driving, Driving):
-        raise TypeError(
-            f"points must be a driving sequence, not {type(driving).__name__}; Permuted(...) makes one of point sets"
-        )
+    driving = _driving(points)
     for name, functional in (functionals or {}).items():
         check_callable(f"functionals[{name!r}]", functional)
     positions = _starts(start, chains, driving.coupled)
@@ -135,6 +131,15 @@ def run(
         steps_before=before,
         given=given,
     )
+
+
+def _driving(points: Driving | None) -> Driving:
+    driving = IndependentNumbers() if points is None else points
+    if not isinstance(driving, Driving):
+        raise TypeError(
+            f"points must be a driving sequence, not {type(driving).__name__}; Permuted(...) makes one of point sets"
+        )
+    return driving
 
 
 def _check_resumed(earlier: Chains, kernel: Any, same: dict[str, Any]) -> None:
