@@ -27,7 +27,7 @@ def blocks(language: str, text: str = README) -> list[str]:
 
 def promised(block: str) -> list[str]:
     """The words that a block's comments say it prints: behind a `print(…)`, and in the comment lines below it."""
-    said = re.findall(r"^ *print\(.*\)(?:  #(.*))?\n((?:#.*\n)*)", block, flags=re.MULTILINE)
+    said = re.findall(r"^ *print\(.*?\)(?:  #(.*))?\n((?:#.*\n)*)", block, flags=re.MULTILINE)
     return [word for behind, below in said for word in (behind + re.sub(r"^#", "", below, flags=re.MULTILINE)).split()]
 
 
