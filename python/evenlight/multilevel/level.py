@@ -86,6 +86,7 @@ class Level:
         self.level = level
         self._sampler = sampler
         self._points = level_points(None, sampler.dims(level), level, seed)
+        self._room: Array = np.empty((0, int(self._points.d)))
         self.n = 0
         self.cost = 0.0
         self._row: LevelRow | None = None
@@ -104,7 +105,9 @@ class Level:
         return self._row
 
     def _add(self, start: int, stop: int) -> None:
-        u = self._points.points(start, stop, out=work_array("points", (stop - start, int(self._points.d))))
+        if len(self._room) < stop - start:
+            self._room = np.empty((stop - start, int(self._points.d)))
+        u = self._points.points(start, stop, out=self._room[: stop - start])
         coupled = draw(self._sampler, self.level, u)
         fine = coupled.fine
         step, square = work_array("step", fine.shape), work_array("square", fine.shape)

@@ -48,6 +48,7 @@ class LevelSampler(Protocol):
     """What every model of levels does. Inherit from it for the defaults, or have all of its names.
 
     Laws: `sample` is a pure function of its arguments, row by row: row i of its values depends on row i of `u` alone.
+    `u` is only lent, the next block is written over it; copy what is to be kept.
     The mean of `coarse` on level l is that of `fine` on level l - 1; otherwise the sum over levels is biased.
 
     Examples

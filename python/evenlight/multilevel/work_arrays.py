@@ -22,7 +22,10 @@ _KEPT = _Kept()
 
 
 def work_array(name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """An array of this thread that holds anything; the next call with this name takes its memory again."""
+    """An array of this thread that holds anything; the next call with this name takes its memory again.
+
+    Only for what is used up before any code of a caller runs, which might ask for the same name.
+    """
     size = math.prod(shape)
     if size > _MOST:
         return np.empty(shape)
