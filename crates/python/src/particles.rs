@@ -2,7 +2,7 @@
 
 use evenlight_points::resample::drawn;
 use evenlight_points::warp::curve::{MOST_DIMS, cloud};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -64,4 +64,4 @@ class StepNumbers:
     def _fill(self, points: Any, columns: int, part: int) -> Array:
         out = np.empty((1, self._n, columns))
         points.fill_replicates(_core.replicate_seed(self._seed, part), (0, self._n), 1, out, 1)
-        return out[0]
+        return np.asarray(out[0])

@@ -34,13 +34,17 @@ fn squeezed(dims: usize, x: &[f64]) -> Vec<f64> {
     for row in x.chunks_exact(dims) {
         mean.iter_mut().zip(row).for_each(|(sum, x)| *sum += x);
     }
-    mean.iter_mut().for_each(|sum| *sum /= count);
+    for sum in &mut mean {
+        *sum /= count;
+    }
     let mut square = vec![0.0; dims];
     for row in x.chunks_exact(dims) {
         square.iter_mut().zip(row).zip(&mean).for_each(|((sum, x), mean)| *sum += (x - mean) * (x - mean));
     }
     // z / √(z² + π / 2), multiplied by the spread above and below
-    square.iter_mut().for_each(|sum| *sum *= FRAC_PI_2 / count);
+    for sum in &mut square {
+        *sum *= FRAC_PI_2 / count;
+    }
     let mut out = x.to_vec();
     for row in out.chunks_exact_mut(dims) {
         for ((x, mean), square) in row.iter_mut().zip(&mean).zip(&square) {
