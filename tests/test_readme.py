@@ -11,22 +11,23 @@ from typing import Any
 
 import pytest
 
+import documents
 from conftest import ROOT
 from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules, smc
 from evenlight.multilevel import models
 
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+README = documents.read("README.md")
 
 
 def blocks(language: str) -> list[str]:
     """The code blocks in a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, flags=re.DOTALL | re.MULTILINE)
+    return documents.blocks(README, language)
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder that holds our scenes and whatever the examples write."""
-    (tmp_path / "scenes").symlink_to(ROOT / "scenes", target_is_directory=True)
+    documents.link_scenes(tmp_path)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -86,12 +87,7 @@ def test_the_example_of_particles_runs(capsys: pytest.CaptureFixture[str]) -> No
     assert abs(names["waiting"].value - 3.138196) < 5 * names["waiting"].standard_error
 
 
-def commands() -> list[str]:
-    """Lines of the shell blocks that call the program."""
-    return [line for block in blocks("sh") for line in block.splitlines() if line.startswith("evenlight ")]
-
-
-@pytest.mark.parametrize("command", commands())
+@pytest.mark.parametrize("command", documents.commands(README))
 def test_the_commands_run(folder: Path, command: str) -> None:
     arguments = shlex.split(command)[1:]
     assert cli.main(arguments) == 0
