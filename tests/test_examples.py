@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from conftest import ROOT
-from documents import link_scenes
 
 SMALL = {
     "convergence": ["--most", "1024", "--replicates", "50"],
@@ -34,7 +33,7 @@ def run(name: str, capsys: pytest.CaptureFixture[str]) -> str:
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder that holds our scenes and whatever the scripts write."""
-    link_scenes(tmp_path)
+    (tmp_path / "scenes").symlink_to(ROOT / "scenes", target_is_directory=True)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

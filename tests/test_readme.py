@@ -1,4 +1,4 @@
-"""The README is true: its examples run, and its table of families is that of the registries."""
+"""README and guides are true: their examples run and print what they say; the table of families is the registries'."""
 
 from __future__ import annotations
 
@@ -11,23 +11,30 @@ from typing import Any
 
 import pytest
 
-import documents
 from conftest import ROOT
 from evenlight import _core, blue_noise, cli, domains, importance, integrands, mcmc, points, rules, smc
 from evenlight.multilevel import models
 
-README = documents.read("README.md")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+GUIDES = sorted((ROOT / "docs").glob("*.md"))
+LONGEST_GUIDE = 110
 
 
-def blocks(language: str) -> list[str]:
+def blocks(language: str, text: str = README) -> list[str]:
     """The code blocks in a language."""
-    return documents.blocks(README, language)
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
+
+
+def promised(block: str) -> list[str]:
+    """The words that a block's comments say it prints: behind a `print(…)`, and in the comment lines below it."""
+    said = re.findall(r"^ *print\(.*?\)(?:  #(.*))?\n((?:#.*\n)*)", block, flags=re.MULTILINE)
+    return [word for behind, below in said for word in (behind + re.sub(r"^#", "", below, flags=re.MULTILINE)).split()]
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder that holds our scenes and whatever the examples write."""
-    documents.link_scenes(tmp_path)
+    (tmp_path / "scenes").symlink_to(ROOT / "scenes", target_is_directory=True)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -87,7 +94,25 @@ def test_the_example_of_particles_runs(capsys: pytest.CaptureFixture[str]) -> No
     assert abs(names["waiting"].value - 3.138196) < 5 * names["waiting"].standard_error
 
 
-@pytest.mark.parametrize("command", documents.commands(README))
+@pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.stem)
+def test_guides_run_and_print_what_they_say(guide: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = guide.read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= LONGEST_GUIDE
+    assert f"(docs/{guide.name})" in README
+    names: dict[str, Any] = {}
+    for block in blocks("python", text):
+        exec(block, names)
+        assert capsys.readouterr().out.split() == promised(block)
+
+
+def commands() -> list[str]:
+    """Lines of the shell blocks that call the program."""
+    texts = [README, *(guide.read_text(encoding="utf-8") for guide in GUIDES)]
+    lines = [line for text in texts for block in blocks("sh", text) for line in block.splitlines()]
+    return [line for line in lines if line.startswith("evenlight ")]
+
+
+@pytest.mark.parametrize("command", commands())
 def test_the_commands_run(folder: Path, command: str) -> None:
     arguments = shlex.split(command)[1:]
     assert cli.main(arguments) == 0
@@ -143,11 +168,16 @@ def test_the_table_of_families_is_that_of_the_registries() -> None:
         assert (ROOT / place / ("mod.rs" if place.startswith("crates") else "__init__.py")).is_file()
 
 
-@pytest.mark.parametrize("document", ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"])
+DOCUMENTS = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", *(f"docs/{guide.name}" for guide in GUIDES)]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
 def test_files_that_documents_name_exist(document: str) -> None:
     text = (ROOT / document).read_text(encoding="utf-8")
     named = re.findall(r"`((?:crates|tests|python|scenes|benches|statistics|examples)/[\w./]*)`", text)
     linked = re.findall(r"\]\(([\w./-]+)\)", text)
-    for name in named + linked:
+    for name in named:
         if Path(name).stem != "x":  # the file that is to be added
             assert (ROOT / name).exists(), name
+    for name in linked:
+        assert ((ROOT / document).parent / name).exists(), name

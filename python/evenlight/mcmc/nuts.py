@@ -148,12 +148,13 @@ class NUTS:
         return Chains(
             draws=draws,
             info=_info(trace.sample_stats),
-            means={},
+            sums={},
             kernel=self,
             points=IndependentNumbers(),
             state=State(draws[:, -1]),
             seed=number,
             steps_before=(tune, 0),
+            given=self,
         )
 
     def _starts(self, start: Any, seed: int) -> Array:
