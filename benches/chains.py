@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy import special
 
-from evenlight.mcmc import HMC, LCG, LFSR, MALA, NUTS, Gibbs, Permuted, RandomWalk, run
+from evenlight.mcmc import HMC, LCG, LFSR, MALA, NUTS, Gibbs, Microcanonical, Permuted, RandomWalk, run
 from evenlight.mcmc.diagnostics import diagnose
 from evenlight.points import Sobol
 
@@ -96,6 +96,39 @@ def speed() -> None:
             )
 
 
+def funnel() -> None:
+    """R. M. Neal's, in ten dimensions and as he wrote it: who mixes; quantiles of v, all warm-ups included."""
+
+    def log_density(x: Any) -> Any:
+        return -(x[:, 0] ** 2) / 18 - 0.5 * (x[:, 1:] ** 2).sum(axis=1) * np.exp(-x[:, 0]) - 4.5 * x[:, 0]
+
+    def gradient(x: Any) -> Any:
+        inverse = np.exp(-x[:, 0])
+        of_v = -x[:, 0] / 9 + 0.5 * (x[:, 1:] ** 2).sum(axis=1) * inverse - 4.5
+        return np.column_stack([of_v, -x[:, 1:] * inverse[:, None]])
+
+    start = np.random.default_rng(0).normal(size=(24, 10)) * (np.arange(10) > 0)
+    nuts = NUTS(log_density, gradient, target_acceptance=0.95)
+    small = HMC(log_density, gradient, step_size=0.05, steps=300)
+    many = Microcanonical(log_density, gradient, steps=300)
+    runs: dict[str, Callable[[], Any]] = {
+        "evenlight Microcanonical": lambda: run(many, start, n=1200, burn_in=100, seed=1),
+        "evenlight HMC, small steps": lambda: run(small, start, n=500, burn_in=100, seed=1),
+        "nutpie, functions of NumPy": lambda: nuts.run(np.full(10, 0.1), n=1000, warm_up=500, seed=1),
+    }
+    print("| sampler | s | R-hat of v | bulk ESS | tail ESS | ESS / s | divergences |\n|---|---|---|---|---|---|---|")
+    for sampler, measure in runs.items():
+        started = time.process_time()
+        chains = measure()
+        spent = time.process_time() - started
+        found = chains.diagnostics(lambda x: x[:, 0])
+        bulk, tail, r_hat = found.ess_bulk[0], found.ess_tail[0], found.r_hat[0]
+        print(
+            f"| {sampler} | {spent:.1f} | {r_hat:.3f} | {bulk:.0f} | {tail:.0f} | {bulk / spent:.1f} "
+            f"| {found.divergences} |"
+        )
+
+
 def reductions() -> None:
     """Variances of means over Gibbs chains, independent numbers over driving sequences; 200 repetitions each."""
     rest = 0.75**0.5
@@ -125,5 +158,7 @@ def reductions() -> None:
 if __name__ == "__main__":
     warnings.simplefilter("ignore", FutureWarning)
     speed()
+    print()
+    funnel()
     print()
     reductions()

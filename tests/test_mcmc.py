@@ -93,8 +93,7 @@ class Case:
         if not isinstance(self.kernel, ParallelTempering):
             return state
         hotter = [self.to_target(rng.normal(size=(rows, 2)) / beta**0.5) for beta in BETAS[1:]]
-        inits = [within(lambda x, beta=beta: beta * banana(x), beta).init for beta in BETAS]
-        levels = [init(x) for init, x in zip(inits, [state.position, *hotter], strict=True)]
+        levels = [RandomWalk(banana).init(x) for x in (state.position, *hotter)]
         return replace(state, levels=tuple(levels))
 
 
@@ -115,7 +114,7 @@ CASES = {
         )
     ),
     "slice": Case(Slice(banana, width=[1.0, 2.0], steps_out=3, tries=6)),
-    "parallel_tempering": Case(ParallelTempering(banana, BETAS, within)),
+    "parallel_tempering": Case(ParallelTempering(banana, within, BETAS)),
     "delayed_rejection": Case(DelayedRejection(banana, scale=1.5, shrink=0.3)),
     "multiple_try": Case(MultipleTry(banana, tries=4, scale=1.2)),
     "primary_sample_space": Case(  # Beta(2, 1) and Beta(3, 1)
@@ -278,8 +277,8 @@ def test_finite_differences_are_gradients() -> None:
         (lambda: Slice(banana, width=[1.0, -1.0]), ValueError, "width must be finite and above 0"),
         (lambda: DelayedRejection(banana, shrink=1.0), ValueError, "shrink must be between 0 and 1"),
         (lambda: MultipleTry(banana, tries=1), ValueError, "tries must be at least 2"),
-        (lambda: ParallelTempering(banana, [1, 1], within), ValueError, "must fall from 1"),
-        (lambda: ParallelTempering(banana, [1, 0.5], lambda f, b: CORRELATED).init(ORIGIN), TypeError, "log density"),
+        (lambda: ParallelTempering(banana, within, [1, 1]), ValueError, "must fall from 1"),
+        (lambda: ParallelTempering(banana, lambda f, b: CORRELATED, [1, 0.5]).init(ORIGIN), TypeError, "log density"),
         (lambda: PrimarySampleSpace(banana, large_step=0.0), ValueError, "large_step must be above 0"),
         (lambda: PrimarySampleSpace(banana, smallest=0.1), ValueError, "0 < smallest <= largest"),
         (lambda: PrimarySampleSpace(banana).init(ORIGIN + 1), ValueError, r"chain 0 starts at \[1.0, 1.0\], outside"),
@@ -358,7 +357,7 @@ def test_tempering_swaps_and_finds_both_modes() -> None:
     def modes(x: Any) -> Any:
         return np.logaddexp(-0.5 * (x[:, 0] - 8) ** 2, np.log(3) - 0.5 * (x[:, 0] + 8) ** 2)
 
-    kernel = ParallelTempering(modes, [1, 0.3, 0.1, 0.03], lambda f, beta: RandomWalk(f, scale=2 / beta**0.5))
+    kernel = ParallelTempering(modes, lambda f, beta: RandomWalk(f, scale=2 / beta**0.5), [1, 0.3, 0.1, 0.03])
     chains = mcmc.run(kernel, [8.0], n=1000, chains=32, burn_in=300, seed=1)
     estimate = chains.estimate(lambda x: x[:, 0] > 0)
     assert abs(estimate.value - 0.25) < 4.5 * estimate.standard_error < 0.2

@@ -111,11 +111,10 @@ def test_the_mean_of_the_exponential_of_energy_errors_is_one() -> None:
 
 def microcanonical_end(x: Any, angles: Any, steps: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Where trajectories of two dimensions end, in positions and angles, and their work."""
-    kernel = Microcanonical(quartic, quartic_gradient, covariance=ROOT @ ROOT.T)
+    kernel = Microcanonical(quartic, quartic_gradient, steps=steps, covariance=ROOT @ ROOT.T)
     state = gradient_state(quartic, quartic_gradient, x)
     u = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    ends = np.full(len(x), steps), np.full(len(x), 0.15)
-    end, u, work = kernel.trajectory(state, u, *ends)
+    end, u, work = kernel.trajectory(state, u, np.full(len(x), 0.15))
     return end.position, np.arctan2(u[:, 1], u[:, 0]), work
 
 

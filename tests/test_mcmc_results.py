@@ -52,6 +52,29 @@ def test_diagnostics_are_those_of_an_autoregression() -> None:
 def test_diagnostics_see_chains_that_disagree() -> None:
     stuck = run(RandomWalk(normal, scale=0.01), [[-2.0], [-1.0], [1.0], [2.0]], n=200)
     assert stuck.diagnostics().r_hat[0] > 1.5
+    assert "R-hat is" in stuck.diagnostics().doubts[0]
+    estimate = stuck.estimate(lambda x: x[:, 0])
+    assert not estimate.converged
+    assert "the chains disagree" in estimate.message
+    sound = run(RandomWalk(normal), [0.0], n=4000, chains=8, burn_in=50)
+    assert sound.diagnostics().doubts == ()
+    assert (sound.estimate(lambda x: x[:, 0]).converged, sound.estimate(lambda x: x[:, 0]).message) == (True, "")
+
+
+def test_diverging_trajectories_are_counted_and_told() -> None:
+    """Steps of 3 deviations: leapfrog is unstable from 2 on."""
+    chains = run(HMC(normal, minus, step_size=3.0, steps=6), [0.5], n=200, chains=8)
+    count = int((chains.info["energy_error"] > 1000).sum())
+    assert chains.divergences == count > 0
+    assert f"{count} trajectories diverged" in chains.estimate(lambda x: x[:, 0]).message
+    assert f"{count} trajectories diverged" in " ".join(chains.diagnostics().doubts)
+
+
+def test_diagnostics_are_a_table_when_printed() -> None:
+    lines = str(run(RandomWalk(normal), [[-2.0, 1.0], [2.0, 0.0]], n=100).diagnostics()).splitlines()
+    assert lines[0].split() == ["mean", "sd", "mcse_mean", "ess_bulk", "ess_tail", "r_hat"]
+    assert [line.split()[0] for line in lines[1:3]] == ["0", "1"]
+    assert all("quantity" in line for line in lines[3:])
 
 
 @pytest.mark.parametrize("points", [LFSR(10), Antithetic()])
@@ -70,7 +93,7 @@ def test_chains_convert_to_arviz() -> None:
     chains = run(HMC(normal, minus, step_size=0.3, steps=3), [0.0, 0.0], n=50, chains=3)
     tree = chains.to_arviz()
     assert (tree["posterior"]["x"].to_numpy() == chains.draws).all()
-    assert set(tree["sample_stats"]) == {"acceptance_rate", "accepted", "energy_error", "n_steps"}
+    assert set(tree["sample_stats"]) == {"acceptance_rate", "accepted", "energy_error", "n_steps", "diverging"}
     assert tree.attrs["kernel"] == "hmc"
     assert arviz_base.extract(tree, group="posterior").sizes["sample"] == 150
 

@@ -257,7 +257,7 @@ def far_modes(*, distance: float = 16.0, n: int = 2000, chains: int = 32, seed: 
     runs = [
         run(kernel(log_density, 1.0), first, n=n, seed=seed),
         run(kernel(log_density, 1.0), both, n=n, seed=seed),
-        run(ParallelTempering(log_density, ladder.tolist(), kernel), first, n=n, burn_in=500, seed=seed),
+        run(ParallelTempering(log_density, kernel, ladder.tolist()), first, n=n, burn_in=500, seed=seed),
     ]
     alone, spread, tempered = (each.estimate(lambda x: x[:, 0] < 0) for each in runs)
     r_hat = [float(each.diagnostics().r_hat[0]) for each in runs]

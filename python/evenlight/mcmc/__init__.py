@@ -26,6 +26,7 @@ from .kernels import (
     RandomWalk,
     Slice,
 )
+from .ladder import Ladder, tempering_ladder
 from .nuts import NUTS
 from .plots import RankRecord, TraceRecord, rank_figure, rank_record, trace_figure, trace_record
 from .run import run
@@ -49,6 +50,7 @@ __all__ = [
     "IndependentNumbers",
     "Info",
     "Kernel",
+    "Ladder",
     "MetropolisHastings",
     "Microcanonical",
     "MultipleTry",
@@ -67,6 +69,7 @@ __all__ = [
     "rank_figure",
     "rank_record",
     "run",
+    "tempering_ladder",
     "trace_figure",
     "trace_record",
 ]

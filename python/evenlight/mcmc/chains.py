@@ -11,7 +11,7 @@ import numpy as np
 from evenlight.estimate import Estimate, from_moments
 from evenlight.moments import Moments
 
-from .diagnostics import Diagnostics, diagnose
+from .diagnostics import Diagnostics, diagnose, disagreement, divergence, split_r_hat
 from .driving import Driving
 from .kernel import Array
 
@@ -68,6 +68,11 @@ class Chains:
         """The mean probability of acceptance of each chain."""
         return np.asarray(self.info["acceptance"].mean(axis=1))
 
+    @property
+    def divergences(self) -> int:
+        """How many trajectories diverged, where the kernel tells: with HMC and NUTS."""
+        return int(np.sum(self.info.get("diverging", 0)))
+
     def estimate(self, functional: str | Callable[[Any], Any]) -> Estimate:
         """The mean of a function under the target, with a standard error from independent repetitions.
 
@@ -83,15 +88,17 @@ class Chains:
         Returns
         -------
         Estimate
-            NaN as the standard error of a single repetition, and of chains that are not random. `diagnostics` has the
-            means of the repetitions.
+            NaN as the standard error of a single repetition, and of chains that are not random. `converged` is False,
+            and `message` says why, if the chains disagree about the function (split R-hat above 1.01; not known of a
+            functional by name) or trajectories diverged. `diagnostics` has the means of the repetitions.
 
         Raises
         ------
         ValueError
             If there is no such functional, the draws were not kept, or a value is not finite.
         """
-        means = self._chain_means(functional)
+        means, r_hat = self._chain_means(functional)
+        doubts = [*filter(None, [disagreement(r_hat), divergence(self.divergences)])]
         together = self.points.coupled if self.kernel.random else len(means)
         groups = means.reshape(-1, together, *means.shape[1:]).mean(axis=1)
         size = self.n * together
@@ -99,11 +106,13 @@ class Chains:
             ((float(size), Moments.of(groups)),),
             method=f"{self.kernel.name} driven by {self.points.name}",
             cost=float(len(means) * (self.n + sum(self.steps_before))),
+            converged=not doubts,
+            message="; ".join(doubts),
             diagnostics={"replicates": groups, "points": (f"chains of seed {self.seed}",)},
         )
 
     def diagnostics(self, functional: Callable[[Any], Any] | None = None) -> Diagnostics:
-        """Whether the chains agree, and what their draws are worth, by ArviZ.
+        """Whether the chains agree, what their draws are worth, and what speaks against trusting them, by ArviZ.
 
         Effective sample sizes and Monte Carlo errors presume chains and steps that are independent, but for what a
         kernel remembers: they are NaN for runs that a driving sequence has driven; `estimate` has errors there.
@@ -125,7 +134,7 @@ class Chains:
         """
         values = values_at(functional or (lambda x: x), self.kept_draws())
         independent = self.kernel.random and self.points.independent_steps and self.points.coupled == 1
-        return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent)
+        return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent, self.divergences)
 
     def to_arviz(self) -> Any:
         """Convert to what ArviZ plots and summarizes: a group `posterior` with `x`, a group `sample_stats`.
@@ -158,12 +167,15 @@ class Chains:
             raise ValueError("this run kept no draws: name its functionals, or run with keep_draws=True")
         return self.draws
 
-    def _chain_means(self, functional: str | Callable[[Any], Any]) -> Array:
+    def _chain_means(self, functional: str | Callable[[Any], Any]) -> tuple[Array, Array]:
+        """The mean over each chain, and R-hat of every entry, NaN where it says nothing."""
         if isinstance(functional, str):
             if functional not in self.means:
                 raise ValueError(f"no functional {functional!r} in this run; known: {', '.join(self.means) or 'none'}")
-            return self.means[functional]
-        return np.asarray(values_at(functional, self.kept_draws()).mean(axis=1))
+            return self.means[functional], np.full(1, np.nan)
+        values = values_at(functional, self.kept_draws())
+        r_hat = split_r_hat(values.reshape(*values.shape[:2], -1)) if self.kernel.random else np.full(1, np.nan)
+        return np.asarray(values.mean(axis=1)), r_hat
 
 
 def values_at(function: Callable[[Any], Any], points: Array) -> Array:

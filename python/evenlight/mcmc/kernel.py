@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -63,6 +63,8 @@ class WarmUp:
     """The number of the last window, from 1 on."""
     windows: int
     """How many windows there will be."""
+    info: Mapping[str, Any] = field(default_factory=dict)
+    """What the kernel told of all steps so far, by name: arrays (chains, steps, ...)."""
 
     @property
     def gain(self) -> float:

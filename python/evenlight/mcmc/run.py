@@ -144,6 +144,13 @@ class _Recorder:
                 self.info[name] = np.empty((*self._shape, *column.shape[1:]), column.dtype)
             self.info[name][:, step] = column
 
+    def warm_up(self, first: int, last: int, window: tuple[int, int]) -> WarmUp:
+        """What is known after a window from step `first` to `last`, number so of so many."""
+        assert self.draws is not None
+        info = {name: column[:, :last] for name, column in self.info.items()}
+        acceptance = float(info["acceptance"][:, first:].mean())
+        return WarmUp(self.draws[:, :last], acceptance, *window, info)
+
     def means(self) -> dict[str, Array]:
         return {name: total / self._shape[1] for name, total in self._sums.items()}
 
@@ -197,14 +204,8 @@ def _warm_up(kernel: Kernel, state: Any, steps: int, seed: int) -> tuple[Kernel,
     chains, d = state.position.shape
     dims = kernel.dims(d)
     stream = _stream(IndependentNumbers(), dims, steps, chains, seed)
-    windows = steps // _WINDOW
-    positions = np.empty((chains, steps, d))
-    acceptance = np.empty(steps)
-
-    def record(step: int, state: Any, info: Any) -> None:
-        positions[:, step] = state.position
-        acceptance[step] = info.acceptance.mean()
-
+    windows = max(1, steps // _WINDOW) if steps else 0
+    recorder = _Recorder(chains, steps, {}, True)
     for window in range(1, windows + 1):
         first, last = (window - 1) * _WINDOW, steps if window == windows else window * _WINDOW
 
@@ -212,9 +213,8 @@ def _warm_up(kernel: Kernel, state: Any, steps: int, seed: int) -> tuple[Kernel,
             return np.asarray(stream(first + start, first + stop))
 
         def put(step: int, state: Any, info: Any, first: int = first) -> None:
-            record(first + step, state, info)
+            recorder.record(first + step, state, info)
 
         state = _advance(kernel, state, shifted, (dims, last - first), put)
-        known = WarmUp(positions[:, :last], float(acceptance[first:last].mean()), window, windows)
-        kernel = kernel.adapted(known)
+        kernel = kernel.adapted(recorder.warm_up(first, last, (window, windows)))
     return kernel, state

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenlight.arguments import check_callable, integer
 from evenlight.mcmc.gradients import Gradient, with_gradient
@@ -17,6 +18,8 @@ from evenlight.mcmc.target import check_positive, moved
 
 __all__ = ["HMC", "HamiltonianInfo"]
 
+_DIVERGING = 1000.0  # as in Stan and nuts-rs
+
 
 @dataclass(frozen=True, eq=False)
 class HamiltonianInfo(Info):
@@ -26,6 +29,8 @@ class HamiltonianInfo(Info):
     """Of the trajectory; its negative exponential has mean 1 in equilibrium. Infinite if it diverged."""
     gradients: Array
     """How many gradients it took."""
+    diverging: NDArray[np.bool_]
+    """Whether the energy error is above 1,000: steps too large for where it went."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +40,10 @@ class HMC(Kernel):
     A step costs `steps` gradients, or (steps + 1) / 2 on average with a randomized length, and one value of the log
     density. In a warm-up, `step_size` becomes the one with which `target_acceptance` is accepted, `covariance` that of
     the target; then both stay.
+
+    Where the scale of some coordinates depends on others, as in R. M. Neal's funnel, no step size suits, and
+    `Chains.diagnostics` says so: sample coordinates whose scale is the same everywhere and map them back (see the
+    examples), or use `Microcanonical`.
 
     Parameters
     ----------
@@ -70,6 +79,19 @@ class HMC(Kernel):
     >>> chains = run(kernel, [0.0, 0.0, 0.0], n=500, chains=8, warm_up=100, seed=1)
     >>> estimate = chains.estimate(lambda x: x**2)
     >>> bool((abs(estimate.value - 1) < 0.2).all())
+    True
+
+    The funnel, v with deviation 3 and y with deviation exp(v / 2), in standard normal coordinates; functions of the
+    funnel's are functions of those after the map:
+
+    >>> import numpy as np
+    >>> to_funnel = lambda z: np.stack([3 * z[:, 0], np.exp(1.5 * z[:, 0]) * z[:, 1]], axis=1)
+    >>> kernel = HMC(lambda z: -0.5 * (z**2).sum(axis=1), lambda z: -z, step_size=0.3, steps=10)
+    >>> chains = run(kernel, [0.0, 0.0], n=500, chains=8, burn_in=50, seed=1)
+    >>> chains.diagnostics(to_funnel).doubts
+    ()
+    >>> estimate = chains.estimate(lambda z: to_funnel(z)[:, 0] > 3)
+    >>> abs(estimate.value - 0.1587) < 4 * estimate.standard_error < 0.1
     True
     """
 
@@ -111,7 +133,8 @@ class HMC(Kernel):
         end = leapfrog(state, normals(uniforms[:, :d]), lengths, self.step_size, (*self._functions, self._root))
         accepted, probability = metropolis(-end.energy_error, uniforms[:, d])
         new = {"position": end.position, "log_density": end.log_density, "gradient": end.gradient}
-        info = HamiltonianInfo(probability, accepted, end.energy_error, lengths.astype(np.float64))
+        error = end.energy_error
+        info = HamiltonianInfo(probability, accepted, error, lengths.astype(np.float64), error > _DIVERGING)
         return moved(state, accepted, **new), info
 
     def adapted(self, warm_up: WarmUp) -> HMC:

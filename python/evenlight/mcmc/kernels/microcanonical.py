@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from evenlight.arguments import check_callable, integer
 from evenlight.mcmc.gradients import Gradient, with_gradient
@@ -41,8 +40,9 @@ class Microcanonical(Kernel):
     climb. Step sizes are drawn over `decades` powers of ten, so that some suit each place; where one scale suits the
     whole target, `HMC` and `NUTS` need fewer gradients.
 
-    A step costs (steps + 1) / 2 gradients on average, and one value of the log density. In a warm-up, `step_size`
-    becomes the one with which `target_acceptance` is accepted, `covariance` that of the target; then both stay.
+    A step costs `steps` gradients and one value of the log density. In a warm-up, `step_size` becomes the one with
+    which `target_acceptance` is accepted, `covariance` that of the target; then both stay. On a funnel, leave the
+    warm-up out: a covariance of the whole is that of no place.
 
     Parameters
     ----------
@@ -53,9 +53,10 @@ class Microcanonical(Kernel):
     step_size : float
         The largest, in units in which the covariance is the identity, at the speed sqrt(d).
     steps : int
-        The most of a trajectory; their number is uniform on 1, ..., `steps`.
+        Of each trajectory. The more, the faster a funnel's mouth is left.
     decades : float
-        Step sizes are log-uniform from `step_size` / 10^decades to `step_size`; 0 for steps of one size.
+        Step sizes are log-uniform from `step_size` / 10^decades to `step_size`. With 0 all are the same, and
+        trajectories may return to where they began.
     covariance : array_like, shape (d, d) or (d,), optional
         The inverse mass matrix: a covariance or variances of the target; the identity by default.
     target_acceptance : float
@@ -114,8 +115,8 @@ class Microcanonical(Kernel):
         object.__setattr__(self, "_root", root_of(self.covariance))
 
     def dims(self, d: int) -> int:
-        """One for each coordinate of the direction, one for the acceptance, the length and the step size each."""
-        return d + 3
+        """One for each coordinate of the direction, one for the acceptance, one for the step size."""
+        return d + 2
 
     def init(self, position: Any) -> GradientState:
         """Return positions, the target and its gradient there."""
@@ -125,16 +126,15 @@ class Microcanonical(Kernel):
         return state
 
     def step(self, state: GradientState, uniforms: Array) -> tuple[GradientState, MicrocanonicalInfo]:
-        """Draw a direction, a length and a step size; follow the trajectory; accept or stay."""
+        """Draw a direction and a step size, follow the trajectory, accept or stay."""
         d = state.position.shape[1]
-        lengths = 1 + np.floor(uniforms[:, d + 1] * self.steps).astype(np.int64)
-        step_size = self.step_size * 10.0 ** (-self.decades * uniforms[:, d + 2])
+        step_size = self.step_size * 10.0 ** (-self.decades * uniforms[:, d + 1])
         direction = normals(uniforms[:, :d])
         direction /= _norm(direction)[:, None]
-        end, _, work = self.trajectory(state, direction, lengths, step_size * d**0.5)
+        end, _, work = self.trajectory(state, direction, step_size * d**0.5)
         accepted, probability = metropolis(-work, uniforms[:, d])
         new = {"position": end.position, "log_density": end.log_density, "gradient": end.gradient}
-        info = MicrocanonicalInfo(probability, accepted, work, lengths.astype(np.float64), step_size)
+        info = MicrocanonicalInfo(probability, accepted, work, np.full(len(work), float(self.steps)), step_size)
         return moved(state, accepted, **new), info
 
     def adapted(self, warm_up: WarmUp) -> Microcanonical:
@@ -142,55 +142,49 @@ class Microcanonical(Kernel):
         tuned_kernel: Microcanonical = tuned(self, warm_up, self.target_acceptance, 1.0)
         return tuned_kernel
 
-    def trajectory(
-        self, start: GradientState, direction: Array, lengths: NDArray[np.int64], distances: Array
-    ) -> tuple[GradientState, Array, Array]:
-        """Where chain i is after lengths[i] steps of distances[i], its direction there, and the work.
+    def trajectory(self, start: GradientState, direction: Array, h: Array) -> tuple[GradientState, Array, Array]:
+        """Where chains are after steps over distances h, shape (chains,), their directions there, and the work.
 
-        The work is minus the logarithm of the ratio that decides: of densities, times the change of volume. Chains
-        are sorted by length, so that those still under way come first. At unit speed no position leaves the numbers;
-        where a gradient does, the work is infinite, and the rest of the trajectory does not matter.
+        The work is minus the logarithm of the ratio that decides: of densities, times the change of volume. At unit
+        speed no position leaves the numbers; where a gradient does, the work is infinite, and the rest of the
+        trajectory does not matter.
         """
         log_density, gradient = self._functions
-        order = np.argsort(-lengths, kind="stable")
-        lengths, h = lengths[order], distances[order]
-        x, slopes = start.position[order], start.gradient[order]
+        x, slopes = start.position.copy(), start.gradient
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            u, work = self._turned(direction[order], slopes, 0.5 * h)
-            for step in range(int(lengths[0])):
-                rows = slice(int(np.searchsorted(-lengths, -step)))  # those with more steps than that
-                x[rows] += h[rows, None] * spread(u[rows], self._root)
-                slopes[rows] = gradient(x[rows])
-                share = np.where(lengths[rows] == step + 1, 0.5, 1.0)
-                u[rows], done = self._turned(u[rows], slopes[rows], share * h[rows])
-                work[rows] += done
+            u, work = self._turned(direction, slopes, 0.5 * h)
+            for step in range(self.steps):
+                x += h[:, None] * spread(u, self._root)
+                slopes = gradient(x)
+                u, done = self._turned(u, slopes, h if step < self.steps - 1 else 0.5 * h)
+                work += done
             fine = np.isfinite(work)
             values = np.full(len(x), -np.inf)
             if fine.any():
                 values[fine] = evaluate(log_density, x[fine])
-            work = np.where(fine, work - values + start.log_density[order], np.inf)
-        back = np.argsort(order)
-        return GradientState(x[back], values[back], slopes[back]), u[back], work[back]
+            work = np.where(fine, work - values + start.log_density, np.inf)
+        return GradientState(x, values, slopes), u, work
 
     def _turned(self, u: Array, slopes: Array, h: Array) -> tuple[Array, Array]:
         """Unit vectors u turned by the slopes over distances h, and minus the logarithm of the change of volume.
 
-        Hyperbolic functions of angle = h |slopes| / (d - 1) are divided by exp(angle), so that none overflows. Where
-        slopes are no numbers, the direction stays, and the second answer is infinite.
+        With angle = h |slopes| / (d - 1) and e the slopes' direction: u + e (sinh angle + e.u (cosh angle - 1)) over
+        its length, here times 2 exp(-angle), so that nothing overflows. Where slopes are no numbers, u stays, and the
+        second answer is infinite.
         """
         force = spread(slopes, self._root, transposed=True)
-        size = _norm(force)
-        toward = force / np.where(size > 0, size, 1.0)[:, None]
+        size = np.maximum(_norm(force), 1e-300)
+        along = np.einsum("ij,ij->i", force, u) / size
         angle = h * size / (u.shape[1] - 1)
-        along = (toward * u).sum(axis=1)
         small = np.exp(-angle)
-        cosh, sinh = 0.5 * (1 + small**2), 0.5 * (1 - small**2)
-        stretch = cosh + along * sinh
-        new = u * small[:, None] + toward * (sinh + along * (cosh - small))[:, None]
-        new /= _norm(new)[:, None]
-        fine = (stretch > 0) & np.isfinite(angle)
-        work = (u.shape[1] - 1) * (angle + np.log(stretch))
-        return np.where(fine[:, None], new, u), np.where(fine, work, np.inf)
+        rest = 1 - small
+        new = 2 * small[:, None] * u + (rest * (1 + small + along * rest) / size)[:, None] * force
+        length = _norm(new)
+        work = (u.shape[1] - 1) * (angle + np.log(0.5 * length))
+        fine = np.isfinite(work)
+        if not fine.all():
+            return np.where(fine[:, None], new / length[:, None], u), np.where(fine, work, np.inf)
+        return new / length[:, None], work
 
 
 def _norm(rows: Array) -> Array:
