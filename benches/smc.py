@@ -35,10 +35,10 @@ Written by `make bench-smc`; figures of one run on one machine. Ratios are what 
 
 {machine}
 
-{particles} particles, {steps} observations, {runs} runs each; `particles` 0.4 in an environment of its own, in turns with ours
-in {rounds} rounds. Errors are of the logarithm of the likelihood, with their standard errors; ms is the median processor
-time of a run on one thread. *Gain* is the ratio of mean squared error times time, random to evenly spread numbers;
-*time* is that of sequential quasi-Monte Carlo over ours.
+{particles} particles, {steps} observations, {runs} runs each; `particles` 0.4 in an environment of its own takes turns
+with ours in {rounds} rounds. Errors are of the logarithm of the likelihood, with their standard errors; ms is the
+median processor time of a run on one thread. *Gain* is the ratio of mean squared error times time, random to evenly
+spread numbers; *time* is that of sequential quasi-Monte Carlo over ours.
 """
 COLUMNS = (
     "| model | program | RMSE random | ms | RMSE SQMC | ms | gain | time |",
@@ -176,7 +176,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     python = os.environ.get("EVENLIGHT_PARTICLES")
     if python is None or not os.access(python, os.X_OK):
         print(
-            f"EVENLIGHT_PARTICLES must name a Python that has the package `particles`, not {python or 'nothing'}; to make one: "
+            "EVENLIGHT_PARTICLES must name a Python that has the package `particles`; to make one: "
             "python3.11 -m venv ~/particles && ~/particles/bin/pip install particles==0.4 numba",
             file=sys.stderr,
         )
