@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.stats import qmc
 
 import evenlight
 from conftest import Run
@@ -345,3 +346,18 @@ def test_a_run_up_to_a_tolerance_tells_what_it_saw() -> None:
     looks = estimate.diagnostics["looks"]
     assert [n for n, _, _ in looks] == [2048 * 2**k for k in range(len(looks))]
     assert looks[-1] == (estimate.n, estimate.value, estimate.standard_error)
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        (Sobol, r"a sequence of so many dimensions, Sobol\(d\), not its class"),
+        (np.zeros((64, 2)), "a sequence such as .* not numpy.ndarray"),
+        (qmc.Sobol(2), "not scipy.stats._qmc.Sobol"),
+        (2, "not builtins.int"),
+    ],
+)
+def test_what_is_no_sequence_is_refused_by_name(points: Any, message: str) -> None:
+    for estimate in (evenlight.integrate, lambda f, points, n: evenlight.quantile(f, points, 0.5, n=n)):
+        with pytest.raises(TypeError, match=message):
+            estimate(product, points, n=64)

@@ -228,6 +228,20 @@ def test_the_same_seed_gives_the_same_bits(name: str) -> None:
     assert not (one == other).all()
 
 
+@pytest.mark.parametrize("name", CASES)
+def test_a_run_that_goes_on_has_the_bits_of_one_long_run(name: str) -> None:
+    kernel = CASES[name].kernel
+    functionals = {"x": lambda x: x}
+    settings: dict[str, Any] = {"warm_up": 50, "burn_in": 5, "functionals": functionals, "seed": 1}
+    whole = mcmc.run(kernel, [0.5, 0.5], n=40, **settings)
+    parts = mcmc.run(kernel, [0.5, 0.5], n=17, **settings)
+    parts = mcmc.run(kernel, [0.5, 0.5], n=40, resume=parts, **settings)
+    assert (draws(parts) == draws(whole)).all()
+    assert all(np.array_equal(parts.info[key], whole.info[key], equal_nan=True) for key in whole.info)
+    assert (parts.means["x"] == whole.means["x"]).all()
+    assert parts.estimate("x").to_dict() == whole.estimate("x").to_dict()
+
+
 def test_a_warm_up_finds_scale_and_covariance_and_then_freezes() -> None:
     """A 10-dimensional normal with deviations 1 to 10 and correlation 1/2, from a step 100 times too small."""
     deviations = np.arange(1.0, 11.0)

@@ -96,6 +96,10 @@ def test_chains_convert_to_arviz() -> None:
     assert set(tree["sample_stats"]) == {"acceptance_rate", "accepted", "energy_error", "n_steps", "diverging"}
     assert tree.attrs["kernel"] == "hmc"
     assert arviz_base.extract(tree, group="posterior").sizes["sample"] == 150
+    mapped = chains.to_arviz({"radius": lambda x: np.hypot(x[:, 0], x[:, 1]), "both": np.exp})["posterior"]
+    assert mapped["radius"].to_numpy() == pytest.approx(np.hypot(*np.moveaxis(chains.kept_draws(), 2, 0)))
+    assert mapped["both"].shape == (3, 50, 2)
+    assert repr(chains).startswith("Chains(3 of 50 steps in 2 dimensions, hmc driven by independent, seed=0, mean")
 
 
 def test_records_become_figures() -> None:
@@ -107,6 +111,14 @@ def test_records_become_figures() -> None:
         out = io.BytesIO()
         figure.savefig(out, format="svg")
         assert len(out.getvalue()) > 5000
+    squares = mcmc.trace_record(chains, most=100, functional=lambda x: x[:, 0] ** 2)
+    np.testing.assert_array_equal(squares.values[:, :, 0], chains.kept_draws()[:, ::4, 0] ** 2)
+    assert [panel.get_ylabel() for panel in mcmc.trace_figure(squares).axes] == ["f[0]"]
+    legend = mcmc.rank_figure(ranks).axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["chain 0", "chain 1", "chain 2", "chain 3"]
+    assert (
+        mcmc.rank_record(chains, bins=8, functional=lambda x: -x).counts[0, ::-1].tolist() == ranks.counts[0].tolist()
+    )
     lean = run(RandomWalk(normal), [0.0], n=10, keep_draws=False)
     with pytest.raises(ValueError, match="kept no draws"):
         mcmc.trace_record(lean)
@@ -156,12 +168,36 @@ def test_missing_libraries_are_named(module: str, call: Any, words: str, monkeyp
         call()
 
 
+def imported(library: str) -> Any:
+    """The library's module of functions. JAX comes with the tools; PyTorch, of 5 GB, by hand: pip install torch."""
+    reason = "PyTorch is not among the tools, for its size; these tests passed with 2.15.0: pip install torch"
+    return pytest.importorskip("jax.numpy" if library == "jax" else library, reason=reason)
+
+
 @pytest.mark.parametrize("library", ["jax", "torch"])
 def test_gradients_of_other_libraries_are_in_double_precision(library: str) -> None:
-    module: Any = pytest.importorskip("jax.numpy" if library == "jax" else library)
+    module = imported(library)
     x = np.random.default_rng(1).normal(size=(20, 3))
     values, gradient = with_gradient(lambda x: -module.exp(x[:, 0]) * x[:, 1] - 0.5 * (x**2).sum(-1), library)
     np.testing.assert_allclose(values(x), -np.exp(x[:, 0]) * x[:, 1] - 0.5 * (x**2).sum(axis=1), rtol=1e-13)
     first = np.exp(x[:, 0])
     exact = np.stack([-first * x[:, 1], -first, np.zeros(20)], axis=1) - x
     np.testing.assert_allclose(gradient(x), exact, rtol=1e-12)
+
+
+@pytest.mark.parametrize("library", ["jax", "torch"])
+def test_chains_by_other_libraries_are_those_of_gradients_by_hand(library: str) -> None:
+    """A quartic target, the same uniform numbers: the same draws but for rounding, by HMC; and NUTS runs."""
+    imported(library)
+
+    def quartic(x: Any) -> Any:
+        return -0.25 * (x**4).sum(-1) - 0.5 * x[:, 0] * x[:, 1]
+
+    def slopes(x: Any) -> Any:
+        return -(x**3) - 0.5 * x[:, ::-1]
+
+    settings: dict[str, Any] = {"step_size": 0.3, "steps": 5}
+    theirs, ours = (run(HMC(quartic, g, **settings), [0.5, 0.1], n=30, seed=6).kept_draws() for g in (library, slopes))
+    np.testing.assert_allclose(theirs, ours, rtol=1e-6, atol=1e-9)
+    draws = NUTS(quartic, library).run([0.5, 0.1], n=20, chains=1, warm_up=20, seed=6).kept_draws()
+    assert np.isfinite(draws).all() and draws.std() > 0.1

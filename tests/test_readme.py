@@ -1,4 +1,4 @@
-"""The README is true: its examples run, and its table of families is that of the registries."""
+"""README and guides are true: their examples run and print what they say; the table of families is the registries'."""
 
 from __future__ import annotations
 
@@ -16,11 +16,19 @@ from evenlight import _core, blue_noise, cli, domains, importance, integrands, m
 from evenlight.multilevel import models
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+GUIDES = sorted((ROOT / "docs").glob("*.md"))
+LONGEST_GUIDE = 125
 
 
-def blocks(language: str) -> list[str]:
+def blocks(language: str, text: str = README) -> list[str]:
     """The code blocks in a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, flags=re.DOTALL | re.MULTILINE)
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
+
+
+def promised(block: str) -> list[str]:
+    """The words that a block's comments say it prints: behind a `print(…)`, and in the comment lines below it."""
+    said = re.findall(r"^ *print\(.*?\)(?:  #(.*))?\n((?:#.*\n)*)", block, flags=re.MULTILINE)
+    return [word for behind, below in said for word in (behind + re.sub(r"^#", "", below, flags=re.MULTILINE)).split()]
 
 
 @pytest.fixture(autouse=True)
@@ -86,9 +94,22 @@ def test_the_example_of_particles_runs(capsys: pytest.CaptureFixture[str]) -> No
     assert abs(names["waiting"].value - 3.138196) < 5 * names["waiting"].standard_error
 
 
+@pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.stem)
+def test_guides_run_and_print_what_they_say(guide: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = guide.read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= LONGEST_GUIDE
+    assert f"(docs/{guide.name})" in README
+    names: dict[str, Any] = {}
+    for block in blocks("python", text):
+        exec(block, names)
+        assert capsys.readouterr().out.split() == promised(block)
+
+
 def commands() -> list[str]:
     """Lines of the shell blocks that call the program."""
-    return [line for block in blocks("sh") for line in block.splitlines() if line.startswith("evenlight ")]
+    texts = [README, *(guide.read_text(encoding="utf-8") for guide in GUIDES)]
+    lines = [line for text in texts for block in blocks("sh", text) for line in block.splitlines()]
+    return [line for line in lines if line.startswith("evenlight ")]
 
 
 @pytest.mark.parametrize("command", commands())
@@ -147,11 +168,16 @@ def test_the_table_of_families_is_that_of_the_registries() -> None:
         assert (ROOT / place / ("mod.rs" if place.startswith("crates") else "__init__.py")).is_file()
 
 
-@pytest.mark.parametrize("document", ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"])
+DOCUMENTS = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", *(f"docs/{guide.name}" for guide in GUIDES)]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
 def test_files_that_documents_name_exist(document: str) -> None:
     text = (ROOT / document).read_text(encoding="utf-8")
     named = re.findall(r"`((?:crates|tests|python|scenes|benches|statistics|examples)/[\w./]*)`", text)
     linked = re.findall(r"\]\(([\w./-]+)\)", text)
-    for name in named + linked:
+    for name in named:
         if Path(name).stem != "x":  # the file that is to be added
             assert (ROOT / name).exists(), name
+    for name in linked:
+        assert ((ROOT / document).parent / name).exists(), name

@@ -8,7 +8,7 @@ from typing import Any, SupportsIndex, TypeAlias
 
 import numpy as np
 
-__all__ = ["WORD", "SeedLike", "check_callable", "integer", "seed_number", "threads"]
+__all__ = ["WORD", "SeedLike", "check_callable", "check_points", "integer", "seed_number", "threads"]
 
 WORD = 2**64 - 1
 """The largest number that the core takes."""
@@ -21,6 +21,15 @@ def check_callable(name: str, thing: Any) -> None:
     """Raise a TypeError if an argument is no function."""
     if not callable(thing):
         raise TypeError(f"{name} must be a function, not {type(thing).__name__}")
+
+
+def check_points(points: Any) -> None:
+    """Raise a TypeError if an argument is no sequence of points that knows its dimensions and gives any rows."""
+    if isinstance(points, type):
+        raise TypeError(f"points must be a sequence of so many dimensions, {points.__name__}(d), not its class")
+    if not (hasattr(points, "d") and callable(getattr(points, "points", None))):
+        kind = f"{type(points).__module__}.{type(points).__qualname__}"
+        raise TypeError(f"points must be a sequence such as evenlight.points.Sobol(d), not {kind}")
 
 
 def integer(name: str, value: SupportsIndex, least: int, most: int | None = None) -> int:

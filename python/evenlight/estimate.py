@@ -44,7 +44,7 @@ class Estimate:
     method : str
         What made it.
     converged : bool
-        Whether the tolerance was reached; True if there was none.
+        Whether the tolerance was reached; True if there was none. Of chains: whether they agree.
     message : str
         How it ended, in words.
     diagnostics : dict

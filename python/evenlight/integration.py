@@ -11,7 +11,7 @@ from typing import Any, NoReturn, SupportsIndex
 import numpy as np
 from tqdm import tqdm
 
-from evenlight.arguments import integer
+from evenlight.arguments import check_points, integer
 from evenlight.estimate import Estimate, NotConvergedWarning
 from evenlight.integrand import Integrand
 from evenlight.intervals import check_level
@@ -117,6 +117,7 @@ def integrate(
     >>> estimate.converged, bool(abs(estimate.value - 0.4165383858866382) < 1e-4 * 0.4165)
     (True, True)
     """
+    check_points(points)
     goal = _Goal.of(n, rtol, atol, level, max_n)
     if bound is not None and variation is not None:
         raise ValueError("bound and variation both bound the error; give one of them")

@@ -7,7 +7,7 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
-from evenlight.arguments import integer
+from evenlight.arguments import check_points, integer
 from evenlight.estimate import Estimate, from_error, plain
 from evenlight.integrand import Integrand
 
@@ -63,6 +63,7 @@ def quantile(
     >>> estimate.value.round(2)
     array([0.5, 1. ])
     """
+    check_points(points)
     total, copies = integer("n", n, 1), integer("replicates", replicates, 2)
     if total % copies:
         raise ValueError(f"n = {total} is no multiple of {copies} replicates")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from .kernel import Array
 __all__ = ["Chains", "values_at"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Chains:
     """Chains of one run.
 
@@ -28,8 +28,8 @@ class Chains:
         The position after each step that counts; None if they were not kept.
     info : dict
         What the kernel told, by name: arrays (chains, n, ...).
-    means : dict
-        Means of the functionals over each chain, shape (chains, ...).
+    sums : dict
+        Of the functionals over the steps of each chain, shape (chains, ...).
     kernel : Kernel
         With the settings that a warm-up has left.
     points : Driving
@@ -40,6 +40,8 @@ class Chains:
         Of the run.
     steps_before : tuple of int
         Steps of warm-up and of burn-in.
+    given : Kernel
+        As it was before the warm-up.
 
     Examples
     --------
@@ -51,17 +53,31 @@ class Chains:
 
     draws: Array | None
     info: dict[str, Any]
-    means: dict[str, Array]
+    sums: dict[str, Array]
     kernel: Any
     points: Driving
     state: Any
     seed: int
-    steps_before: tuple[int, int] = field(default=(0, 0))
+    steps_before: tuple[int, int]
+    given: Any
+
+    def __repr__(self) -> str:
+        """Show what ran; `diagnostics()` shows how it went."""
+        count, d = self.state.position.shape
+        return (
+            f"Chains({count} of {self.n} steps in {d} dimensions, {self.kernel.name} driven by {self.points.name}, "
+            f"seed={self.seed}, mean acceptance {self.acceptance.mean():.2f})"
+        )
 
     @property
     def n(self) -> int:
         """The steps that count, of each chain."""
         return int(self.info["acceptance"].shape[1])
+
+    @property
+    def means(self) -> dict[str, Array]:
+        """Means of the functionals over each chain, shape (chains, ...)."""
+        return {name: total / self.n for name, total in self.sums.items()}
 
     @property
     def acceptance(self) -> Array:
@@ -136,8 +152,14 @@ class Chains:
         independent = self.kernel.random and self.points.independent_steps and self.points.coupled == 1
         return diagnose(values.reshape(*values.shape[:2], -1), self.acceptance, independent, self.divergences)
 
-    def to_arviz(self) -> Any:
-        """Convert to what ArviZ plots and summarizes: a group `posterior` with `x`, a group `sample_stats`.
+    def to_arviz(self, variables: Mapping[str, Callable[[Any], Any]] | None = None) -> Any:
+        """Convert to what ArviZ plots and summarizes: groups `posterior` and `sample_stats`.
+
+        Parameters
+        ----------
+        variables : mapping of str to callable, optional
+            What `posterior` is to have: functions from positions (m, d) to values (m,) or (m, ...). By default the
+            positions, as `x`.
 
         Returns
         -------
@@ -149,7 +171,7 @@ class Chains:
         ImportError
             If arviz-base is not installed.
         ValueError
-            If the draws were not kept.
+            If the draws were not kept, or a value is not finite.
         """
         try:
             import arviz_base
@@ -157,7 +179,9 @@ class Chains:
             raise ImportError("to_arviz needs arviz-base: pip install 'evenlight[arviz]'") from None
         names = {"acceptance": "acceptance_rate", "gradients": "n_steps"}
         told = {names.get(name, name): column for name, column in self.info.items()}
-        tree = arviz_base.from_dict({"posterior": {"x": self.kept_draws()}, "sample_stats": told})
+        draws = self.kept_draws()
+        shown = {name: values_at(function, draws) for name, function in (variables or {"x": lambda x: x}).items()}
+        tree = arviz_base.from_dict({"posterior": shown, "sample_stats": told})
         tree.attrs.update(kernel=self.kernel.name, driven_by=repr(self.points), seed=str(self.seed))
         return tree
 

@@ -17,7 +17,7 @@ __all__ = ["Diagnostics", "diagnose", "disagreement", "divergence", "split_r_hat
 _LARGEST_R_HAT, _LEAST_ESS = 1.01, 400.0  # of Vehtari et al.
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Diagnostics:
     """What draws of several chains say about themselves, for each of k quantities; printed, a table.
 
@@ -86,7 +86,8 @@ class Diagnostics:
                 )
         return tuple(filter(None, found))
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
+        """Show a table, and the doubts."""
         names = ("mean", "sd", "mcse_mean", "ess_bulk", "ess_tail", "r_hat")
         rows = [f"{'':>4}" + "".join(f"{name:>11}" for name in names)]
         columns = [getattr(self, name) for name in names]

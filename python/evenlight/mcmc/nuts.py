@@ -32,6 +32,7 @@ class NUTS:
 
     It has no `step` of ours: the library runs the chains, with random numbers of its own, one value and gradient at a
     time. Choose it over `HMC` when no number of steps suits, and over that in a loop when the target is expensive.
+    Funnels need other coordinates, whatever the target acceptance: see `HMC`.
 
     Parameters
     ----------
@@ -148,12 +149,13 @@ class NUTS:
         return Chains(
             draws=draws,
             info=_info(trace.sample_stats),
-            means={},
+            sums={},
             kernel=self,
             points=IndependentNumbers(),
             state=State(draws[:, -1]),
             seed=number,
             steps_before=(tune, 0),
+            given=self,
         )
 
     def _starts(self, start: Any, seed: int) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
 from typing import Any, SupportsIndex
 
 import numpy as np
@@ -12,15 +12,14 @@ from evenlight.arguments import SeedLike, check_callable, integer, seed_number
 
 from .chains import Chains
 from .driving import Driving, IndependentNumbers
-from .kernel import Array, Kernel, WarmUp
+from .kernel import Array, Kernel
+from .recorder import Functionals, Recorder
 
 __all__ = ["run"]
 
 _WINDOW = 25  # steps between changes of settings in a warm-up
 _MOST_NUMBERS = 2**20  # uniform numbers at a time
 _LEAST, _MOST = 2.0**-65, 1 - 2.0**-53  # of the numbers that kernels get: inside (0, 1)
-
-Functionals = Mapping[str, Callable[[Any], Any]]
 
 
 def run(
@@ -35,6 +34,7 @@ def run(
     functionals: Functionals | None = None,
     keep_draws: bool = True,
     seed: SeedLike = None,
+    resume: Chains | None = None,
 ) -> Chains:
     """Run chains of a kernel.
 
@@ -62,6 +62,9 @@ def run(
         Whether to keep the positions; without them there are only the means of `functionals`.
     seed : int or numpy.random.Generator, optional
         The same number gives the same bits; 0 by default.
+    resume : Chains, optional
+        What the same call gave for a smaller `n`: goes on where it ended, and gives the bits of one long run. Not with
+        driving sequences that are balanced as a whole only.
 
     Returns
     -------
@@ -85,74 +88,93 @@ def run(
     >>> estimate = chains.estimate(lambda x: abs(x[:, 0]))
     >>> abs(estimate.value - 1) < 4 * estimate.standard_error < 0.2
     True
+
+    Not enough? The same call with more steps, and what there is:
+
+    >>> kernel = RandomWalk(lambda x: -abs(x[:, 0]))
+    >>> chains = run(kernel, [0.0], n=100, warm_up=100, seed=1)
+    >>> more = run(kernel, [0.0], n=400, warm_up=100, seed=1, resume=chains)
+    >>> more.n, bool((more.draws[:, :100] == chains.draws).all())
+    (400, True)
     """
-    driving = IndependentNumbers() if points is None else points
-    if not isinstance(driving, Driving):
-        raise TypeError(
-            f"points must be a driving sequence, not {type(driving).__name__}; Permuted(...) makes one of point sets"
-        )
+    driving = _driving(points)
     for name, functional in (functionals or {}).items():
         check_callable(f"functionals[{name!r}]", functional)
     positions = _starts(start, chains, driving.coupled)
     dims = kernel.dims(positions.shape[1])
     number = seed_number(seed)
+    before = integer("warm_up", warm_up, 0), integer("burn_in", burn_in, 0)
     phases = [_core.replicate_seed(number, phase) for phase in range(3)]
-    state = kernel.init(positions)
-    kernel, state = _warm_up(kernel, state, integer("warm_up", warm_up, 0), phases[0])
-    state = _burn_in(kernel, state, integer("burn_in", burn_in, 0), phases[1])
     steps = _steps(n, driving.length(dims))
-    recorder = _Recorder(len(positions), steps, functionals or {}, keep_draws)
+    recorder = Recorder(len(positions), steps, functionals or {}, keep_draws)
+    given, done = kernel, 0
+    if resume is None:
+        kernel, state = _warm_up(kernel, kernel.init(positions), before[0], phases[0])
+        state = _burn_in(kernel, state, before[1], phases[1])
+    else:
+        same = {"points": driving, "seed": number, "warm_up and burn_in": before, "kept draws": keep_draws}
+        _check_resumed(resume, kernel, same | {"functionals": sorted(functionals or {}), "shape": positions.shape})
+        if not steps > resume.n:
+            raise ValueError(f"resume has {resume.n} steps already, n must be more, not {steps}")
+        recorder.take(resume)
+        kernel, state, done = resume.kernel, resume.state, resume.n
     stream = _stream(driving, dims, steps, len(positions), phases[2])
-    state = _advance(kernel, state, stream, (dims, steps), recorder.record)
+    state = _advance(kernel, state, stream, (dims, done, steps), recorder.record)
     return Chains(
         draws=recorder.draws,
         info=recorder.info,
-        means=recorder.means(),
+        sums=recorder.sums,
         kernel=kernel,
         points=driving,
         state=state,
         seed=number,
-        steps_before=(int(warm_up), int(burn_in)),
+        steps_before=before,
+        given=given,
     )
 
 
-class _Recorder:
-    """Keeps what is asked for, step by step."""
+def _driving(points: Driving | None) -> Driving:
+    driving = IndependentNumbers() if points is None else points
+    if not isinstance(driving, Driving):
+        raise TypeError(
+            f"points must be a driving sequence, not {type(driving).__name__}; Permuted(...) makes one of point sets"
+        )
+    return driving
 
-    def __init__(self, chains: int, n: int, functionals: Functionals, keep_draws: bool) -> None:
-        self._shape = (chains, n)
-        self._functionals = functionals
-        self._sums: dict[str, Array] = {}
-        self._keep = keep_draws
-        self.draws: Array | None = None
-        self.info: dict[str, Any] = {}
 
-    def record(self, step: int, state: Any, info: Any) -> None:
-        if self._keep:
-            if self.draws is None:
-                self.draws = np.empty((*self._shape, state.position.shape[1]))
-            self.draws[:, step] = state.position
-        for name, functional in self._functionals.items():
-            values = np.asarray(functional(state.position), np.float64)
-            if values.shape[:1] != self._shape[:1] or not np.isfinite(values).all():
-                raise ValueError(
-                    f"functionals[{name!r}] must return finite values ({self._shape[0]}, ...), not {values.shape}"
-                )
-            self._sums[name] = self._sums[name] + values if name in self._sums else values
-        for name, column in info.columns().items():
-            if name not in self.info:
-                self.info[name] = np.empty((*self._shape, *column.shape[1:]), column.dtype)
-            self.info[name][:, step] = column
+def _check_resumed(earlier: Chains, kernel: Any, same: dict[str, Any]) -> None:
+    """Refuse to go on with anything but what the earlier run did."""
+    if not isinstance(earlier, Chains):
+        raise TypeError(f"resume must be Chains of an earlier run, not {type(earlier).__name__}")
+    if not earlier.points.independent_steps:
+        raise ValueError(f"a run driven by {earlier.points!r} cannot grow: its numbers are balanced as a whole")
+    differing = _differences(earlier.given, kernel)
+    if differing:
+        raise ValueError(f"resume is of another kernel: {differing} differs; functions must be the same objects")
+    was = {
+        "points": earlier.points,
+        "seed": earlier.seed,
+        "warm_up and burn_in": earlier.steps_before,
+        "kept draws": earlier.draws is not None,
+        "functionals": sorted(earlier.sums),
+        "shape": earlier.state.position.shape,
+    }
+    for name, value in same.items():
+        if was[name] != value:
+            raise ValueError(f"resume is of another run: its {name} is {was[name]}, not {value}")
 
-    def warm_up(self, first: int, last: int, window: tuple[int, int]) -> WarmUp:
-        """What is known after a window from step `first` to `last`, number so of so many."""
-        assert self.draws is not None
-        info = {name: column[:, :last] for name, column in self.info.items()}
-        acceptance = float(info["acceptance"][:, first:].mean())
-        return WarmUp(self.draws[:, :last], acceptance, *window, info)
 
-    def means(self) -> dict[str, Array]:
-        return {name: total / self._shape[1] for name, total in self._sums.items()}
+def _differences(one: Any, other: Any) -> str:
+    """The first setting in which two kernels differ, or their kind; empty if they do not."""
+    if one is other:
+        return ""
+    if type(one) is not type(other) or not is_dataclass(one):
+        return f"its kind, {one.name!r} and not {other.name!r},"
+    for each in fields(one):
+        values = [getattr(kernel, each.name) for kernel in (one, other)]
+        if each.init and values[0] is not values[1] and not np.array_equal(values[0], values[1]):
+            return each.name
+    return ""
 
 
 def _starts(start: Any, chains: SupportsIndex | None, coupled: int) -> Array:
@@ -182,11 +204,11 @@ def _stream(driving: Driving, dims: int, n: int, chains: int, seed: int) -> Any:
     return driving.stream(dims, n, chains // driving.coupled, seed)
 
 
-def _advance(kernel: Kernel, state: Any, stream: Any, size: tuple[int, int], record: Any) -> Any:
-    dims, n = size
+def _advance(kernel: Kernel, state: Any, stream: Any, size: tuple[int, int, int], record: Any) -> Any:
+    dims, first, n = size
     chains = len(state.position)
     block = max(1, _MOST_NUMBERS // (chains * max(dims, 1)))
-    for start in range(0, n, block):
+    for start in range(first, n, block):
         uniforms = np.clip(stream(start, min(start + block, n)), _LEAST, _MOST)
         for step in range(uniforms.shape[1]):
             state, info = kernel.step(state, uniforms[:, step])
@@ -197,7 +219,7 @@ def _advance(kernel: Kernel, state: Any, stream: Any, size: tuple[int, int], rec
 def _burn_in(kernel: Kernel, state: Any, steps: int, seed: int) -> Any:
     dims = kernel.dims(state.position.shape[1])
     stream = _stream(IndependentNumbers(), dims, steps, len(state.position), seed)
-    return _advance(kernel, state, stream, (dims, steps), lambda *_: None)
+    return _advance(kernel, state, stream, (dims, 0, steps), lambda *_: None)
 
 
 def _warm_up(kernel: Kernel, state: Any, steps: int, seed: int) -> tuple[Kernel, Any]:
@@ -205,16 +227,9 @@ def _warm_up(kernel: Kernel, state: Any, steps: int, seed: int) -> tuple[Kernel,
     dims = kernel.dims(d)
     stream = _stream(IndependentNumbers(), dims, steps, chains, seed)
     windows = max(1, steps // _WINDOW) if steps else 0
-    recorder = _Recorder(chains, steps, {}, True)
+    recorder = Recorder(chains, steps, {}, True)
     for window in range(1, windows + 1):
         first, last = (window - 1) * _WINDOW, steps if window == windows else window * _WINDOW
-
-        def shifted(start: int, stop: int, first: int = first) -> Array:
-            return np.asarray(stream(first + start, first + stop))
-
-        def put(step: int, state: Any, info: Any, first: int = first) -> None:
-            recorder.record(first + step, state, info)
-
-        state = _advance(kernel, state, shifted, (dims, last - first), put)
+        state = _advance(kernel, state, stream, (dims, first, last), recorder.record)
         kernel = kernel.adapted(recorder.warm_up(first, last, (window, windows)))
     return kernel, state
