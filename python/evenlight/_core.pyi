@@ -17,6 +17,7 @@ __all__ = [
     "blue_noise_points",
     "bsdfs",
     "check_writable",
+    "cloud_order",
     "construct_korobov",
     "construct_lattice",
     "construct_polynomial_lattice",
@@ -27,6 +28,7 @@ __all__ = [
     "digital_net_error",
     "dispersion",
     "dither_planes",
+    "drawn_places",
     "emitters",
     "extreme_discrepancy",
     "filters",
@@ -159,6 +161,11 @@ def curve_points(curve: str, source: str, n_start: tuple[int, int], seed: int, o
 def curve_order(
     curve: str, x: NDArray[np.float64], lower: Sequence[float], upper: Sequence[float], workers: int
 ) -> NDArray[np.uint32]: ...
+
+# --- particles ---
+
+def cloud_order(x: NDArray[np.float64]) -> NDArray[np.int64]: ...
+def drawn_places(weights: NDArray[np.float64], numbers: NDArray[np.float64]) -> NDArray[np.int64]: ...
 
 # --- blue noise ---
 

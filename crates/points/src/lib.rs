@@ -64,6 +64,7 @@ mod primes;
 pub mod quality;
 #[cfg(feature = "std")]
 mod radix;
+pub mod resample;
 #[cfg(feature = "std")]
 pub mod scramble;
 mod seed;

@@ -8,6 +8,7 @@ mod errors;
 mod families;
 mod lattices;
 mod output;
+mod particles;
 mod points;
 mod quality;
 mod render;
@@ -24,6 +25,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     families::register(module)?;
     lattices::register(module)?;
     output::register(module)?;
+    particles::register(module)?;
     points::register(module)?;
     quality::register(module)?;
     render::register(module)?;

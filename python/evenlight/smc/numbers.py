@@ -14,8 +14,6 @@ __all__ = ["StepNumbers", "example_points"]
 
 Array = NDArray[np.float64]
 
-_BLOCK = 1 << 18  # numbers that are made at once
-
 
 def example_points(points: Any) -> Engine:
     """The sequence to use, given as a class or as an example; scrambled Sobol' points by default."""
@@ -44,25 +42,26 @@ class StepNumbers:
     """
 
     def __init__(self, example: Engine, n: int, columns: int, *seeds: int) -> None:
-        self._example, self._n, self._columns, self._seeds = example, n, columns, seeds
-        self._steps = max(1, min(32, _BLOCK // (n * columns)))
-        self._first = 0
-        self._block: Array = np.empty((0, n, columns))
+        self._example, self._n, self._columns = example, n, columns
+        seed, *splits = seeds
+        for split in splits:
+            seed = _core.replicate_seed(seed, split)
+        self._seed = seed
+        self._moves = self._points(columns)
 
     def start(self, columns: int) -> Array:
         """The points of the start, shape (n, columns)."""
-        return np.asarray(self._set(columns, 0).points(0, self._n))
+        return self._fill(self._points(columns), columns, 0)
 
     def step(self, number: int) -> Array:
         """The points of a step, from 0 on, shape (n, columns)."""
-        if not self._first <= number < self._first + len(self._block):
-            block = number // self._steps
-            self._first = block * self._steps
-            self._block = self._set(self._columns, 1 + block).points(0, self._n, replicates=self._steps)
-        return np.asarray(self._block[number - self._first])
+        return self._fill(self._moves, self._columns, 1 + number)
 
-    def _set(self, columns: int, part: int) -> Engine:
-        seed, *splits = *self._seeds, part
-        for split in splits:
-            seed = _core.replicate_seed(seed, split)
-        return type(self._example)(**{**self._example._spec(), "d": columns}, seed=seed)
+    def _points(self, columns: int) -> Any:
+        """The sequence in as many dimensions; seeds come with `_fill`, which costs less than building it anew."""
+        return type(self._example)(**{**self._example._spec(), "d": columns})._core
+
+    def _fill(self, points: Any, columns: int, part: int) -> Array:
+        out = np.empty((1, self._n, columns))
+        points.fill_replicates(_core.replicate_seed(self._seed, part), (0, self._n), 1, out, 1)
+        return np.asarray(out[0])

@@ -80,7 +80,7 @@ class ParticleFilter:
         sequence's own first coordinate is left out: that of Sobol' points is too regular a function of i.)
         """
         if self.sorted:
-            order = SORTS["coordinate" if states.shape[1] == 1 else "hilbert"].order(states)
+            order = SORTS["hilbert"].order(states)
             return order.take(RESAMPLING[self.resampling](weights.take(order), u, self.particles)), None
         if self.threshold < 1 and effective_size(weights) >= self.threshold * self.particles:
             with np.errstate(divide="ignore"):

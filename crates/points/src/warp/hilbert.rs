@@ -45,6 +45,10 @@ for_this_machine! {
 
 #[inline(always)]
 fn indices_body(grid: Grid, cells: &[u32], indices: &mut [u64]) {
+    if grid.dims == 1 {
+        // along a line, the curve goes straight on
+        return indices.iter_mut().zip(cells).for_each(|(index, &cell)| *index = cell.into());
+    }
     each_index(grid, cells, indices, |grid, axes| {
         for q in (1..grid.bits).rev() {
             for i in 0..grid.dims {

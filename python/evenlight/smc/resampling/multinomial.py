@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inverse_cdf import Array, Indices, ancestors_by_search
+from .inverse_cdf import Array, Indices, drawn
 
 __all__ = ["ancestors"]
 
 
 def ancestors(weights: Array, u: Array, count: int) -> Indices:
-    """Sorted, so that the search runs through memory in order."""
-    return ancestors_by_search(weights, np.sort(u[:count]))
+    """By the numbers themselves, in ascending order."""
+    return drawn(weights, np.sort(u[:count]))

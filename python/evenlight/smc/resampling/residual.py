@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inverse_cdf import Array, Indices, ancestors_by_search
+from .inverse_cdf import Array, Indices, drawn
 
 __all__ = ["ancestors"]
 
@@ -17,6 +17,6 @@ def ancestors(weights: Array, u: Array, count: int) -> Indices:
     counts = np.floor(expected * _ROUNDING).astype(np.intp)
     left = count - int(counts.sum())
     if left > 0:
-        drawn = ancestors_by_search(np.maximum(expected - counts, 0.0), np.sort(u[:left]))
-        counts += np.bincount(drawn, minlength=len(weights))
+        rest = drawn(np.maximum(expected - counts, 0.0), np.sort(u[:left]))
+        counts += np.bincount(rest, minlength=len(weights))
     return np.arange(len(weights)).repeat(counts)

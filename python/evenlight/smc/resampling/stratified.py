@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inverse_cdf import Array, Indices, ancestors_below, scaled_sums
+from .inverse_cdf import Array, Indices, drawn
 
 __all__ = ["ancestors"]
 
 
 def ancestors(weights: Array, u: Array, count: int) -> Indices:
-    """Of the numbers (i + u_i) / m, ⌊m s⌋ or one more are below s: which of both a single comparison tells."""
-    sums = scaled_sums(weights, count)
-    below = sums.astype(np.intp)
-    np.minimum(below, count - 1, out=below)
-    sums -= below
-    below += sums > u.take(below)
-    return ancestors_below(below)
+    """By the numbers (i + u_i) / m."""
+    return drawn(weights, (np.arange(count) + u[:count]) / count)

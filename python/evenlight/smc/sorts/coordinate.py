@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from .ascending import ascending
+import numpy as np
+
+from evenlight import _core
+
 from .sort import Array, Indices, Sort
 
 __all__ = ["SORT"]
 
 
 def _order(states: Array) -> Indices:
-    return ascending(states[:, 0])
+    return _core.cloud_order(np.ascontiguousarray(states[:, :1])).astype(np.intp, copy=False)
 
 
 SORT = Sort(_order, lambda d: 1)

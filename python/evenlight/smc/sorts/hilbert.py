@@ -1,30 +1,22 @@
-"""Along Hilbert's curve: the default of filters for states of several dimensions (Gerber and Chopin 2015).
+"""Along Hilbert's curve through the cloud of states: the default of filters (Gerber and Chopin 2015).
 
-Coordinates are mapped to the unit cube by a logistic function of the standardized state, so that no particle far away
-makes all others one cell.
+Coordinates are standardized and squeezed into the unit cube, so that no particle far away makes all others one cell.
+States of one dimension come in ascending order.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from scipy import special
 
-from evenlight.warp import hilbert_sort
+from evenlight import _core
 
-from .ascending import ascending
 from .sort import Array, Indices, Sort
 
 __all__ = ["SORT"]
 
 
 def _order(states: Array) -> Indices:
-    d = states.shape[1]
-    if d == 1:
-        return ascending(states[:, 0])
-    spread = states.std(axis=0)
-    standard = (states - states.mean(axis=0)) / np.where(spread > 0, spread, 1.0)
-    cube = [[0.0] * d, [1.0] * d]
-    return hilbert_sort(special.expit(standard), bounds=cube).astype(np.intp)
+    return _core.cloud_order(np.ascontiguousarray(states)).astype(np.intp, copy=False)
 
 
 SORT = Sort(_order, lambda d: 1)

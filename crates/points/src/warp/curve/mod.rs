@@ -5,8 +5,10 @@
 //! that neighbors on the line are neighbors in the cube (Hilbert).
 //!
 //! * [`points`]: along the curve from stratified or van der Corput numbers;
-//! * [`sort`]: clouds of points in the order of a curve.
+//! * [`sort`]: clouds of points in the order of a curve;
+//! * [`cloud`]: those that have no bounds.
 
+pub mod cloud;
 pub mod points;
 pub mod sort;
 mod unit;

@@ -5,7 +5,6 @@
 //! the place of the point. What is still in one cell is told apart by all 64 digits. Each thread sorts a part, and parts
 //! are merged. Points in one cell of the finest grid keep their order, so that the result does not depend on the threads.
 
-use std::cmp::Ordering;
 use std::num::NonZeroUsize;
 
 use super::{Curve, Grid};
@@ -109,7 +108,7 @@ const SPARE: u32 = 8;
 fn tell_apart(curve: &Curve, grid: Grid, frame: &Frame, x: &[f64], places: &mut [u32]) {
     if grid.dims == 1 {
         let along = |place: u32| x[place as usize];
-        places.sort_by(|&a, &b| along(a).partial_cmp(&along(b)).unwrap_or(Ordering::Equal));
+        places.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
         return;
     }
     let row = |&place: &u32| &x[place as usize * grid.dims..][..grid.dims];
