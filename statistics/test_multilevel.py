@@ -32,10 +32,8 @@ def quietly(driver: Any, *arguments: Any, **settings: Any) -> Estimate:
     return estimate
 
 
-# Of 100 runs, the root mean squared error has a standard error of 7 % of itself. Left out are two whose errors are not
-# as promised: digital options by conditional expectations at large tolerances, which the pilot alone exceeds, and
-# barriers looked at only at time steps. Their means are 0.124, -0.013, -0.044, -0.057, -0.063, -0.052, ...: at first
-# they look as if they had converged, and errors are 1.6 of the tolerance (at 0.2 and 0.1).
+# Of 100 runs, the root mean squared error has a standard error of 7 % of itself. Digital options by conditional
+# expectations have larger errors at 0.3 than at 0.5, where the pilot, which waits for rare differences, is enough.
 @pytest.mark.parametrize(
     ("payoff", "scheme", "rmse"),
     [
@@ -44,6 +42,7 @@ def quietly(driver: Any, *arguments: Any, **settings: Any) -> Estimate:
         ("asian", "milstein", 0.1),
         ("lookback", "milstein", 0.1),
         ("barrier", "milstein", 0.1),
+        ("digital", "milstein", 0.3),
         ("digital", "milstein", 0.1),
         ("european", "euler", 0.2),
         ("european", "euler", 0.1),
@@ -53,6 +52,20 @@ def quietly(driver: Any, *arguments: Any, **settings: Any) -> Estimate:
     ],
 )
 def test_errors_are_as_promised(payoff: str, scheme: str, rmse: float) -> None:
+    ratio, covered = promised(payoff, scheme, rmse)
+    assert 0.5 < ratio < 1.05
+    assert covered >= 0.88  # 95 % promised: 3.2 standard errors
+
+
+# Means of their differences are 0.124, -0.013, -0.044, -0.057, -0.063, -0.052, ...: at first they look as if they had
+# converged, later their noise is as large as the bias. This misses the promise; what is tested is by how much.
+@pytest.mark.parametrize("rmse", [0.5, 0.2, 0.1])
+def test_barriers_looked_at_only_at_time_steps_exceed_tolerances_by_less_than_two(rmse: float) -> None:
+    assert 0.5 < promised("barrier", "euler", rmse)[0] < 1.9
+
+
+def promised(payoff: str, scheme: str, rmse: float) -> tuple[float, float]:
+    """Root mean squared error of 100 runs over the tolerance, and the share of intervals that hold the price."""
     model = GeometricBrownianMotion(payoff, scheme)
     found = [quietly(mlmc, model, rmse=rmse, seed=seed) for seed in range(100)]
     errors = np.array([estimate.value - PRICES[payoff] for estimate in found])
@@ -60,8 +73,7 @@ def test_errors_are_as_promised(payoff: str, scheme: str, rmse: float) -> None:
     ratio = math.sqrt(np.mean(errors**2)) / rmse
     covered = np.mean((intervals[:, 0] < PRICES[payoff]) & (PRICES[payoff] < intervals[:, 1]))
     print(f"{payoff} {scheme} {rmse}: RMSE / tolerance {ratio:.2f}, coverage {covered:.2f}")
-    assert 0.5 < ratio < 1.05
-    assert covered >= 0.88  # 95 % promised: 3.2 standard errors
+    return ratio, float(covered)
 
 
 def test_one_level_has_the_exponent_one_third() -> None:

@@ -14,6 +14,7 @@ from scipy import special
 from evenlight.estimate import Estimate, NotConvergedWarning
 from evenlight.multilevel import (
     CONSTRUCTIONS,
+    Coupled,
     FunctionSampler,
     LevelDistribution,
     MultilevelWarning,
@@ -25,6 +26,7 @@ from evenlight.multilevel import (
     mlqmc,
     multi_index,
 )
+from evenlight.multilevel.models import GeometricBrownianMotion
 from evenlight.points import Halton, Independent, LatinHypercube, Lattice, Sobol
 from toy_levels import BothRefined, ExponentialSeries, NormalLevels, PowerOfUniform, ProductLevels
 
@@ -120,6 +122,15 @@ def test_the_same_seed_gives_the_same_bits(driver: Callable[..., Estimate]) -> N
     first, again, other = (driver(PowerOfUniform(), rmse=0.003, seed=seed) for seed in (1, 1, 2))
     assert first.value == again.value
     assert first.value != other.value
+
+
+def test_a_run_inside_of_a_sampler_does_not_disturb_the_one_outside() -> None:
+    class Nested(GeometricBrownianMotion):
+        def sample(self, level: int, u: Any) -> Coupled:
+            mlmc(GeometricBrownianMotion(), rmse=5.0)
+            return super().sample(level, u)
+
+    assert mlmc(Nested(), rmse=1.0, seed=3).value == mlmc(GeometricBrownianMotion(), rmse=1.0, seed=3).value
 
 
 @pytest.mark.parametrize("driver", [mlmc, mlqmc])

@@ -83,7 +83,8 @@ def brownian_increments(u: Any, *, horizon: float = 1.0, construction: str = "in
     if construction not in CONSTRUCTIONS:
         raise ValueError(f"unknown construction {construction!r}; known: {', '.join(CONSTRUCTIONS)}")
     steps = uniform.shape[1] // factors
-    z = normals(uniform) * np.sqrt(horizon / steps)
+    z = normals(uniform)
+    z *= np.sqrt(horizon / steps)
     if factors == 1:
         return CONSTRUCTIONS[construction](z)
     motions = np.ascontiguousarray(z.reshape(len(z), steps, factors).transpose(0, 2, 1)).reshape(-1, steps)

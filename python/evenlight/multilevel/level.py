@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenlight.multilevel.level_sampler import draw
+from evenlight.multilevel.work_arrays import work_array
 from evenlight.points import Engine, Independent
 
 __all__ = ["Level", "LevelRow", "compared", "level_points", "plain"]
 
 Array = NDArray[np.float64]
 
-_BLOCK = 2**16  # numbers drawn at once: they and what is made of them stay in a cache
+_BLOCK = 2**17  # numbers drawn at once: blocks have their overhead
 _ROUNDING = 1e-12  # of the mean: differences below it are none
 
 
@@ -85,6 +86,7 @@ class Level:
         self.level = level
         self._sampler = sampler
         self._points = level_points(None, sampler.dims(level), level, seed)
+        self._room: Array = np.empty((0, int(self._points.d)))
         self.n = 0
         self.cost = 0.0
         self._row: LevelRow | None = None
@@ -103,15 +105,20 @@ class Level:
         return self._row
 
     def _add(self, start: int, stop: int) -> None:
-        coupled = draw(self._sampler, self.level, self._points.points(start, stop))
-        step, fine = coupled.difference, coupled.fine
+        if len(self._room) < stop - start:
+            self._room = np.empty((stop - start, int(self._points.d)))
+        u = self._points.points(start, stop, out=self._room[: stop - start])
+        coupled = draw(self._sampler, self.level, u)
+        fine = coupled.fine
+        step, square = work_array("step", fine.shape), work_array("square", fine.shape)
+        np.subtract(fine, coupled.coarse, out=step)
         if start == 0:
             self._center = step.mean(axis=0)
             self._fine_center = fine.mean(axis=0)
             self._powers = np.zeros((4, *step.shape[1:]))
             self._fine_powers = np.zeros((2, *step.shape[1:]))
         step -= self._center
-        square = step * step
+        np.multiply(step, step, out=square)
         self._powers += [step.sum(axis=0), square.sum(axis=0), _dot(square, step), _dot(square, square)]
         np.subtract(fine, self._fine_center, out=step)
         self._fine_powers += [step.sum(axis=0), _dot(step, step)]
@@ -148,4 +155,5 @@ def plain(number: Any) -> Any:
 
 
 def _dot(x: Array, y: Array) -> Any:
-    return x @ y if x.ndim == 1 else np.einsum("ij,ij->j", x, y)
+    """Sums of products along the first axis; without the threads of linear algebra, which wait for each other."""
+    return np.einsum("i...,i...->...", x, y)

@@ -48,6 +48,7 @@ class LevelSampler(Protocol):
     """What every model of levels does. Inherit from it for the defaults, or have all of its names.
 
     Laws: `sample` is a pure function of its arguments, row by row: row i of its values depends on row i of `u` alone.
+    `u` is only lent, the next block is written over it; copy what is to be kept.
     The mean of `coarse` on level l is that of `fine` on level l - 1; otherwise the sum over levels is biased.
 
     Examples
@@ -169,8 +170,8 @@ def draw(sampler: Any, level: Any, u: Array) -> Coupled:
     if fine.ndim not in (1, 2) or len(fine) != len(u) or coarse.shape != fine.shape:
         expected = f"fine and coarse of one shape ({len(u)},) or ({len(u)}, k)"
         raise ValueError(f"{where} must return {expected}, not {fine.shape} and {coarse.shape}")
-    finite = np.isfinite(fine).reshape(len(u), -1).all(axis=1) & np.isfinite(coarse).reshape(len(u), -1).all(axis=1)
-    if not finite.all():
+    if not (np.isfinite(fine).all() and np.isfinite(coarse).all()):
+        finite = (np.isfinite(fine) & np.isfinite(coarse)).reshape(len(u), -1).all(axis=1)
         row = int(np.argmin(finite))
         raise ValueError(f"{where} is {fine[row].tolist()} and {coarse[row].tolist()} at row {row} of a block")
     if not (math.isfinite(coupled.cost) and coupled.cost > 0):

@@ -83,13 +83,13 @@ def mlmc(
     level is added while the bias, bounded by the means of the last three levels, takes more than half of the tolerance,
     or while another level makes the whole cheaper: what bias leaves is the variance's. Tolerances are approached by
     halving, so that few samples hang on a pilot's variance. Of the squared tolerance, a tenth is kept for what
-    estimated variances and rates get wrong: errors are 0.6 to 1 of the tolerance. They can exceed it where the first
-    means look as if they had converged and have not, as those of a barrier that is looked at only at time steps.
+    estimated variances and rates get wrong: errors are 0.6 to 1 of the tolerance, or less where the pilot alone is
+    enough.
 
-    No bound of the bias holds where the first few differences say nothing of the later ones. On barriers that are
-    looked at only at time steps (GeometricBrownianMotion("barrier", "euler")) differences change their sign and then
-    grow up to level 4, and errors are up to 3 times a large tolerance; give alpha there, or a small tolerance.
-
+    Errors are larger where first means look as if they had converged and have not, or fall so slowly that the noise of
+    the last ones is as large as the bias. Barriers that are looked at only at time steps (GeometricBrownianMotion(
+    "barrier", "euler")) have both: differences change their sign, grow up to level 4 and then fall with alpha = 1/2.
+    Errors are 1 to 1.6 tolerances there, and to give alpha hardly helps; the scheme "milstein" does.
     References: M. B. Giles, "Multilevel Monte Carlo path simulation", Oper. Res. 56(3), 607-617 (2008), and
     "Multilevel Monte Carlo methods", Acta Numerica 24, 259-328 (2015); N. Collier, A.-L. Haji-Ali, F. Nobile, E. von
     Schwerin and R. Tempone, "A continuation multilevel Monte Carlo algorithm", BIT 55, 399-432 (2015).
@@ -136,7 +136,7 @@ class _Run:
         """Add samples and levels until bias and noise are within the tolerance; say what was in the way, if so."""
         while True:
             rates = self._rates()
-            bias = self._bias()
+            bias = self._bias(rates.beta)
             more = lacking(self._levels, self._variances(rates.beta), self._goal.variance(rmse, bias))
             if more.any():
                 if not extend(self._levels, more, self._goal.max_cost - self._cost()):
@@ -156,7 +156,7 @@ class _Run:
         return sum_of_levels(
             rows,
             rates,
-            self._bias(),
+            self._bias(rates.beta),
             replicates=sum(row.n for row in rows),
             cost=self._cost(),
             method="mlmc",
@@ -174,10 +174,10 @@ class _Run:
     def _rates(self) -> Rates:
         return measure_rates(self._rows(), *self._given)
 
-    def _bias(self) -> Any:
+    def _bias(self, beta: float) -> Any:
         if self._goal.exact and len(self._levels) == self._goal.max_level + 1:
             return np.zeros_like(self._levels[0].row.mean)
-        return remaining_bias(self._rows(), self._given[0], self._rates().beta)
+        return remaining_bias(self._rows(), self._given[0], beta)
 
     def _variances(self, beta: float) -> Array:
         """Of all levels, shape (levels, quantities): as measured, and as the level before lets expect, together.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from evenlight.arguments import integer
 from evenlight.multilevel.brownian import CONSTRUCTIONS, brownian_increments
 from evenlight.multilevel.level_sampler import Coupled, LevelSampler
+from evenlight.multilevel.work_arrays import work_array
 
 from .option import Option
 from .path import Path
@@ -22,7 +23,7 @@ __all__ = ["GeometricBrownianMotion"]
 
 Array = NDArray[np.float64]
 
-_BLOCK = 2**14  # numbers that are worked on at once: a few arrays of this size fit a second-level cache
+_BLOCK = 2**15  # numbers that are worked on at once: what a second-level cache holds
 _ROWS = 512  # but no fewer paths than this: a step of a block has its overhead
 
 
@@ -167,7 +168,8 @@ class GeometricBrownianMotion(LevelSampler):
     def _block(self, u: Array, values: Array) -> None:
         steps = u.shape[1] // (2 if self._takes_uniforms else 1)
         motion = brownian_increments(u[:, :steps], horizon=self.option.horizon, construction=self.construction)
-        increments = np.ascontiguousarray(motion.T)
+        increments = work_array("increments", motion.T.shape)
+        np.copyto(increments, motion.T)
         uniforms = np.ascontiguousarray(u[:, steps:].T) if self._takes_uniforms else None
         own, prices = increments, self._prices(increments)
         for rung in reversed(range(len(values))):
@@ -176,11 +178,12 @@ class GeometricBrownianMotion(LevelSampler):
             if rung and self.scheme == "exact":  # the coarse path is at the same places, at every other time
                 prices = prices[::2]
             elif rung:
-                own = own[0::2] + own[1::2]
+                halves = own[0::2], own[1::2]
+                own = np.add(*halves, out=work_array("coarse increments", halves[0].shape))
                 prices = self._prices(own)
 
     def _prices(self, increments: Array) -> Array:
-        prices = np.empty((len(increments) + 1, increments.shape[1]))
+        prices = work_array("prices", (len(increments) + 1, increments.shape[1]))
         prices[0] = self.option.spot
         _SCHEMES[self.scheme](increments, self.option.horizon / len(increments), self.option, prices[1:])
         for before, after in pairwise(prices):
