@@ -54,6 +54,11 @@ def test_what_is_no_domain_is_refused() -> None:
         Triangle([[0, 0], [1, 0], [0, 1]], warp=warp.DiskPolar())
     with pytest.raises(ValueError, match="at least one factor"):
         Product()
+    with pytest.raises(TypeError, match=r"factor 1 must be a domain such as .*, not int"):
+        Product(Box([0], [1]), 3)
+    for domain, message in (Box, r"a domain, Box\(…\), not its class"), ([[0, 1]], "evenlight.domains.Box, not list"):
+        with pytest.raises(TypeError, match=message):
+            evenlight.integrate(lambda x: x[:, 0], Sobol(2), n=64, domain=domain)
     with pytest.raises(ValueError, match="takes points of 2 dimensions"):
         evenlight.integrate(lambda x: x[:, 0], Sobol(3), n=64, domain=Box([0, 0], [1, 1]))
 

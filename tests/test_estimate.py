@@ -93,6 +93,10 @@ def test_what_does_not_merge_says_so() -> None:
         one.merge(evenlight.integrate(f, Sobol(1, seed=1), n=128))
     with pytest.raises(ValueError, match="'qmc' does not merge"):
         one.merge(evenlight.integrate(f, Sobol(1, scramble="none"), n=64))
+    with pytest.raises(TypeError, match="not with float"):
+        one.merge(0.5)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="resume must be an estimate, not float"):
+        evenlight.integrate(f, Sobol(1, seed=1), n=128, resume=0.5)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="shapes"):
         one.merge(estimate_of(VALUES))
 

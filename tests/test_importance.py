@@ -69,6 +69,8 @@ def test_what_is_no_density_is_refused() -> None:
         as_density("normal")
     with pytest.raises(ValueError, match="not positive definite"):
         Normal([0, 0], [[1, 2], [2, 1]])
+    with pytest.raises(TypeError, match="a list of densities, not Normal"):
+        Mixture(Normal([0]), Normal([0]))  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="proposal 1 has 2 dimensions, the target 1"):
         Mixture(Normal([0]), [Normal([0]), Normal([0, 0])])
 

@@ -297,6 +297,7 @@ def test_wrong_values_are_named(build: Callable[[], object], message: str) -> No
 @pytest.mark.parametrize(
     ("build", "message"),
     [
+        (lambda: Sobol(2, sed=3), "Sobol has no argument 'sed'; it has: d, scramble, seed, rng, optimization$"),
         (lambda: Sobol(2.5), "d must be an integer, not float"),  # type: ignore[arg-type]
         (lambda: Sobol(2, seed="7"), "seed must be an integer, not str"),  # type: ignore[arg-type]
         (lambda: Sobol(2, scramble=3), "scramble must be a string, not int"),  # type: ignore[arg-type]

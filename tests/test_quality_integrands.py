@@ -130,3 +130,8 @@ def test_the_koksma_hlawka_bound_holds() -> None:
 def test_what_has_no_meaning_is_refused(call: Any, message: str) -> None:
     with np.errstate(invalid="ignore"), pytest.raises(ValueError, match=message):
         call()
+
+
+def test_what_is_no_function_is_named() -> None:
+    with pytest.raises(TypeError, match="f must be a function, not int"):
+        quality.sobol_indices(3, 2)  # type: ignore[arg-type]

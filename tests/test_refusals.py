@@ -119,6 +119,13 @@ def test_scenes(refuse: Refuse, tmp_path: Path, content: bytes | None, message: 
     assert message in error
 
 
+def test_a_missing_scene_is_a_missing_file(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError) as refused:
+        evenlight.load_scene(tmp_path / "scene.xml")
+    assert refused.value.filename == str(tmp_path / "scene.xml")
+    assert "os error" not in str(refused.value)
+
+
 def test_folders_are_no_scenes(refuse: Refuse, tmp_path: Path) -> None:
     assert "not a regular file" in refuse("render", tmp_path, "-o", "a.exr")
 

@@ -80,6 +80,10 @@ def test_warps_travel(member: warp.Warp) -> None:
 def test_mistakes_are_named() -> None:
     with pytest.raises(ValueError, match="unknown warp 'nowhere'; known: triangle_root, "):
         warp.build("nowhere")
+    with pytest.raises(TypeError, match="TriangleHeitz has no option 'angle'; it has: none"):
+        warp.TriangleHeitz(angle=1)
+    with pytest.raises(TypeError, match="Gaussian has no option"):
+        warp.Gaussian(sigma=1)
     heitz = warp.TriangleHeitz()
     with pytest.raises(ValueError, match=r"u must have 2 numbers in its last axis, not shape \(5, 3\)"):
         heitz.map(np.zeros((5, 3)))

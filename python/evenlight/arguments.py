@@ -8,7 +8,7 @@ from typing import Any, SupportsIndex, TypeAlias
 
 import numpy as np
 
-__all__ = ["WORD", "SeedLike", "check_callable", "check_points", "integer", "seed_number", "threads"]
+__all__ = ["WORD", "SeedLike", "check_callable", "check_domain", "check_points", "integer", "seed_number", "threads"]
 
 WORD = 2**64 - 1
 """The largest number that the core takes."""
@@ -21,6 +21,14 @@ def check_callable(name: str, thing: Any) -> None:
     """Raise a TypeError if an argument is no function."""
     if not callable(thing):
         raise TypeError(f"{name} must be a function, not {type(thing).__name__}")
+
+
+def check_domain(name: str, domain: Any) -> None:
+    """Raise a TypeError if an argument is no domain: a thing, no class, with `d`, `map(u)` and `volume`."""
+    if isinstance(domain, type):
+        raise TypeError(f"{name} must be a domain, {domain.__name__}(…), not its class")
+    if not (hasattr(domain, "d") and hasattr(domain, "volume") and callable(getattr(domain, "map", None))):
+        raise TypeError(f"{name} must be a domain such as evenlight.domains.Box, not {type(domain).__name__}")
 
 
 def check_points(points: Any) -> None:

@@ -143,9 +143,13 @@ class Estimate:
 
         Raises
         ------
+        TypeError
+            If `other` is no estimate.
         ValueError
             If the shapes differ, both come from the very same points, or there are no moments to merge.
         """
+        if not isinstance(other, Estimate):
+            raise TypeError(f"estimates merge with estimates, not with {type(other).__name__}")
         if np.shape(self.value) != np.shape(other.value):
             raise ValueError(f"values of shapes {np.shape(self.value)} and {np.shape(other.value)} do not merge")
         if not (self.groups and other.groups):

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenlight.arguments import check_domain
+
 __all__ = ["Integrand"]
 
 Array = NDArray[np.float64]
@@ -32,6 +34,8 @@ class Integrand:
     def __init__(self, f: Callable[[Any], Any], domain: Any, on_nonfinite: str) -> None:
         if not callable(f):
             raise TypeError(f"f must be a function of blocks of points, not {type(f).__name__}")
+        if domain is not None:
+            check_domain("domain", domain)
         if on_nonfinite not in _REACTIONS:
             raise ValueError(f"on_nonfinite must be one of {', '.join(_REACTIONS)}, not {on_nonfinite!r}")
         self._f = f

@@ -145,6 +145,8 @@ def integrate(
 
 def _go_on(rule: Rule, points: Any, earlier: Estimate, goal: _Goal) -> int:
     """Give a rule what an earlier run knows, if it was of the same points and counted all of them; say how many."""
+    if not isinstance(earlier, Estimate):
+        raise TypeError(f"resume must be an estimate, not {type(earlier).__name__}")
     if getattr(points, "finite", False):
         raise ValueError(f"{points!r} cannot grow; resume needs a sequence such as Sobol")
     if earlier.method != rule.name or earlier.diagnostics.get("points") != (repr(points),):

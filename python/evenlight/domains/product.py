@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from evenlight.arguments import check_domain
+
 from .domain import Array, Domain
 
 __all__ = ["Product"]
@@ -21,8 +23,8 @@ class Product(Domain):
 
     Raises
     ------
-    ValueError
-        If there is none.
+    TypeError, ValueError
+        If one of them is no domain, or there is none.
 
     Examples
     --------
@@ -40,6 +42,8 @@ class Product(Domain):
     def __init__(self, *factors: Any) -> None:
         if not factors:
             raise ValueError("a product needs at least one factor")
+        for number, factor in enumerate(factors):
+            check_domain(f"factor {number}", factor)
         self.factors = factors
         self.d = sum(int(factor.d) for factor in factors)
         self.volume = float(np.prod([factor.volume for factor in factors]))

@@ -46,6 +46,8 @@ class Mixture:
 
     def __init__(self, target: Any, proposals: Sequence[Any]) -> None:
         self.target = as_density(target)
+        if not np.iterable(proposals):
+            raise TypeError(f"proposals must be a list of densities, not {type(proposals).__name__}")
         self.proposals = [as_density(proposal) for proposal in proposals]
         if not self.proposals:
             raise ValueError("a mixture needs at least one proposal")

@@ -314,7 +314,14 @@ class Engine(qmc.QMCEngine):
     def _build(self, dims: int) -> Any:
         if dims == 0 or (self.finite and "n" not in self._options):
             return None
-        return _core.PointSet(self.sequence, dims, self.scramble, self.seed, **self._options)
+        try:
+            return _core.PointSet(self.sequence, dims, self.scramble, self.seed, **self._options)
+        except TypeError:
+            known = next(options for name, _, _, options, _ in _core.available_sequences() if name == self.sequence)
+            for option in set(self._options) - set(known):
+                has = ", ".join(["d", "scramble", "seed", "rng", "optimization", *known])
+                raise TypeError(f"{type(self).__name__} has no argument {option!r}; it has: {has}") from None
+            raise
 
     def _spec(self) -> dict[str, Any]:
         """Return the arguments of the constructor, without the seed."""

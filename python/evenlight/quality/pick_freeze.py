@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from evenlight import _core
+from evenlight.arguments import check_callable
 
 __all__ = ["Design", "Integrand", "Ratio", "ratio", "values"]
 
@@ -71,6 +72,7 @@ def ratio(above: Array, below: Array) -> Ratio:
 
 def values(f: Integrand, x: Array) -> Array:
     """Evaluate an integrand on a block, and refuse what is not one finite number for each point."""
+    check_callable("f", f)
     found = np.asarray(f(x), dtype=np.float64)
     if found.shape != (len(x),):
         raise ValueError(f"f must return shape ({len(x)},) for {len(x)} points, not {found.shape}")

@@ -31,6 +31,11 @@ class Warp:
 
     def __init__(self, **options: Any) -> None:
         self._options = {name: value for name, value in options.items() if value is not None}
+        known = next(options for name, _, options, _ in _core.available_warps() if name == self.warp)
+        for option in self._options:
+            if option not in known:
+                has = ", ".join(known) or "none"
+                raise TypeError(f"{type(self).__name__} has no option {option!r}; it has: {has}")
         self._core = _core.Warp(self.warp, **self._options)
 
     @property
