@@ -159,3 +159,7 @@ def test_levels_are_summed_and_shown(evenlight_command: Run) -> None:
     assert plain["method"] == "mlmc"
     assert plain["interval"][0] < 5.76309 < plain["interval"][1]  # the price
     assert "known: european" in error_of(evenlight_command("multilevel", "gbm", "nothing", "--rmse", "0.2"))
+    pairs = evenlight_command("multilevel", "diffusion_1d", "uniform", "--rmse", "0.01", "--method", "multi_index")
+    assert "(0, 1)" in pairs.stdout
+    wrong = evenlight_command("multilevel", "gbm", "--rmse", "0.2", "--method", "multi_index")
+    assert "one direction only; multi_index takes diffusion_1d" in error_of(wrong)
