@@ -99,6 +99,10 @@ bench-chains: setup $(PEERS) ## Measure chains against nutpie and BlackJAX, and 
 bench-multilevel: setup $(PEERS) ## Measure multilevel methods against QMCPy, and how their costs grow
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.multilevel
 
+.PHONY: bench-smc
+bench-smc: setup ## Measure particle filters against particles (EVENLIGHT_PARTICLES: an interpreter that has it)
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benches.smc
+
 .PHONY: docs
 docs: setup ## Build the Rust documentation into target/doc
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps

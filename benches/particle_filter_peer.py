@@ -35,8 +35,8 @@ def feynman_kac(job: Any) -> Any:
     return state_space_models.Bootstrap(ssm=model, data=[row[np.newaxis] for row in y])
 
 
-def measure(job: Any, qmc: bool) -> tuple[list[float], float]:
-    """Logarithms of likelihoods, and the median of processor seconds of a run, without the first."""
+def measure(job: Any, qmc: bool) -> tuple[list[float], list[float]]:
+    """Logarithms of likelihoods, and processor seconds of each run, without the first."""
     model = feynman_kac(job)
     logarithms, spent = [], []
     for _ in range(job["runs"] + 1):
@@ -45,7 +45,7 @@ def measure(job: Any, qmc: bool) -> tuple[list[float], float]:
         run.run()
         spent.append(time.process_time() - started)
         logarithms.append(float(run.logLt))
-    return logarithms[1:], float(np.median(spent[1:]))
+    return logarithms[1:], spent[1:]
 
 
 if __name__ == "__main__":

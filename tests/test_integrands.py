@@ -76,4 +76,4 @@ def test_names_and_dimensions_are_checked() -> None:
 
 def test_every_integrand_has_its_file() -> None:
     files = {path.stem for path in (ROOT / "python/evenlight/integrands").glob("*.py")}
-    assert files == {*NAMES, "__init__", "problem"}
+    assert files == {*NAMES, "__init__", "geometric_asian", "problem"}

@@ -195,10 +195,12 @@ def test_multi_index_knows_its_bias_and_its_noise(alpha: float, beta: float) -> 
     toy = ProductLevels(alpha, beta)
     for seed in range(2):
         estimate = multi_index(toy, rmse=0.2, seed=seed)
-        pairs = [row.level for row in estimate.diagnostics["levels"]]
-        bias = toy.exact_value - sum(2.0 ** (-alpha * (i + j)) for i, j in pairs)
-        # a bound: noise makes it larger, and the next means count like those before them, 2^alpha times as large
-        assert 0.6 < estimate.bias / bias < 1.5 * 2.0**alpha
+        rows = {row.level: row for row in estimate.diagnostics["levels"]}
+        bias = toy.exact_value - sum(2.0 ** (-alpha * (i + j)) for i, j in rows)
+        # a bound: the next means count like those before them, 2^alpha times as large, with the noise of those
+        edge = [row for (i, j), row in rows.items() if (i + 1, j) not in rows or (i, j + 1) not in rows]
+        noise = sum(math.sqrt(row.variance / row.n) for row in edge)
+        assert 0.6 * bias < estimate.bias < 1.5 * 2.0**alpha * bias + 2.0 * noise
         assert abs(estimate.value - (toy.exact_value - bias)) < 4.5 * estimate.standard_error  # false alarm: 4e-5
         assert estimate.standard_error**2 + estimate.bias**2 <= 1.02 * 0.75 * 0.2**2
 

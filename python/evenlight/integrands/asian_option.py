@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy import special
 
+from .geometric_asian import geometric_asian_price
 from .problem import Array, Problem
 
 __all__ = ["AsianOption"]
@@ -27,10 +28,7 @@ class AsianOption(Problem):
         super().__init__(d)
         self._steps = (np.arange(d, 0, -1) / d) * (_VOLATILITY / np.sqrt(d))  # weights of increments in the mean
         self._mean = np.log(_SPOT) + (_RATE - _VOLATILITY**2 / 2) * (d + 1) / (2 * d)
-        spread = float(np.linalg.norm(self._steps))
-        edge = (self._mean - np.log(_STRIKE)) / spread
-        price = np.exp(self._mean + spread**2 / 2) * special.ndtr(edge + spread) - _STRIKE * special.ndtr(edge)
-        self.exact = float(np.exp(-_RATE) * price)
+        self.exact = geometric_asian_price(d, spot=_SPOT, strike=_STRIKE, volatility=_VOLATILITY, rate=_RATE)
 
     def __call__(self, x: Array) -> Array:
         """Values at points of shape (n, d)."""

@@ -24,10 +24,10 @@ __all__ = ["multi_index"]
 
 Array = NDArray[np.float64]
 
-_PILOT = (256, 128, 64, 32)  # samples of the first pairs, by the sum of their levels
+_PILOT = (256, 128, 64, 32, 32)  # samples of the first pairs, by the sum of their levels
 _SHARE = 0.75  # of the squared tolerance, for bias and variance as estimated
 _BEYOND = 24  # levels beyond the sampled ones whose bias is added up
-_FIRST: tuple[Pair, ...] = tuple((i, total - i) for total in range(4) for i in range(total + 1))
+_FIRST: tuple[Pair, ...] = tuple((i, total - i) for total in range(len(_PILOT)) for i in range(total + 1))
 
 
 def multi_index(
@@ -72,9 +72,10 @@ def multi_index(
     -----
     The set of pairs grows one by one: of those whose predecessors are all there, the one whose mean is largest for what
     it adds to the cost. Means and variances of pairs that are not sampled follow from a plane through the
-    logarithms of those that are, but the mean of a pair that comes next counts at least as much as the smallest of
-    its predecessors: differences need not fall evenly, as where a mesh is too coarse for the terms of a random field.
-    The sum of such means is the bias. Samples are distributed as in `mlmc`.
+    logarithms of those that are, but the mean of a pair that comes next counts at least as much as the largest of its
+    predecessors: differences need not fall evenly, as where a mesh is too coarse for the terms of a random field. The
+    sum of such means is the bias; where they do fall evenly, that is up to 2^alpha times too much. Samples are
+    distributed as in `mlmc`, but all pairs whose levels have a sum of at most 4 are sampled at any tolerance.
 
     Where mixed differences fall as products, the cost is that of the worse of both directions, up to logarithms.
 
@@ -219,9 +220,9 @@ class _Run:
         ]
 
     def _expected_mean(self, pair: Pair) -> Array:
-        """Of a candidate: what the plane says, and no less than the smallest of its predecessors."""
+        """Of a candidate: what the plane says, and no less than the largest of its predecessors."""
         below = [np.abs(np.atleast_1d(self._rows[p].mean)) for p in _predecessors(*pair)]
-        return np.asarray(np.maximum(self._means.at(*pair), np.min(below, axis=0)))
+        return np.asarray(np.maximum(self._means.at(*pair), np.max(below, axis=0)))
 
     def _best(self) -> Pair | None:
         """The candidate with the largest mean for what it adds to the cost."""

@@ -62,6 +62,6 @@ class StepNumbers:
         return type(self._example)(**{**self._example._spec(), "d": columns})._core
 
     def _fill(self, points: Any, columns: int, part: int) -> Array:
-        out = np.empty((1, self._n, columns))
-        points.fill_replicates(_core.replicate_seed(self._seed, part), (0, self._n), 1, out, 1)
-        return np.asarray(out[0])
+        out: Array = np.empty((self._n, columns))
+        points.fill_replicates(_core.replicate_seed(self._seed, part), (0, self._n), 1, out[np.newaxis], 1)
+        return out

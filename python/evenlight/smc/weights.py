@@ -18,7 +18,8 @@ def normalized(log_weights: Array, when: str) -> tuple[Array, float]:
     if not math.isfinite(largest):
         lack = "the weights of all particles are zero" if largest == -math.inf else "a weight is no finite number"
         raise ValueError(f"{lack} at {when}; more particles or a proposal that knows the data may help")
-    weights = np.exp(log_weights - largest)
+    weights = log_weights - largest
+    np.exp(weights, out=weights)
     total = float(weights.sum())
     weights /= total
     return weights, largest + math.log(total / len(weights))

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy import special
 
+from evenlight.integrands.geometric_asian import geometric_asian_price
 from evenlight.smc.state_space import normals
 
 from .chain import Array, MarkovChain
@@ -62,7 +62,8 @@ class AsianOptionChain(MarkovChain):
         self.steps, self.geometric, self.strike, self._discount = steps, geometric, strike, math.exp(-rate)
         self._log_spot, self._drift = math.log(spot), (rate - volatility**2 / 2) / steps
         self._spread = volatility / math.sqrt(steps)
-        self.exact = self._geometric_price() if geometric else math.nan
+        model = {"spot": spot, "strike": strike, "volatility": volatility, "rate": rate}
+        self.exact = geometric_asian_price(steps, **model) if geometric else math.nan
 
     def init(self, n: int) -> Array:
         """The logarithm of the spot, and a mean of nothing."""
@@ -80,11 +81,3 @@ class AsianOptionChain(MarkovChain):
             return None
         mean = np.exp(states[:, 1]) if self.geometric else states[:, 1]
         return self._discount * np.maximum(mean - self.strike, 0.0)
-
-    def _geometric_price(self) -> float:
-        """A. G. Z. Kemna and A. C. F. Vorst, J. Banking Finance 14, 113-129 (1990): the mean is log-normal."""
-        mean = self._log_spot + self._drift * (self.steps + 1) / 2
-        spread = self._spread * float(np.linalg.norm(np.arange(1, self.steps + 1) / self.steps))
-        edge = (mean - math.log(self.strike)) / spread
-        value = math.exp(mean + spread**2 / 2) * special.ndtr(edge + spread)
-        return float(self._discount * (value - self.strike * special.ndtr(edge)))

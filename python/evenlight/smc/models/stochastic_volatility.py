@@ -66,8 +66,12 @@ class StochasticVolatility(StateSpaceModel):
     def log_observation(self, t: int, previous: Array | None, states: Array, y: Any) -> Array:
         """A centered normal density of variance exp(x)."""
         x = states[:, 0]
-        square = float(np.asarray(y).item()) ** 2
-        return -0.5 * (math.log(2 * math.pi) + x + square * np.exp(-x))
+        logarithms = np.exp(-x)
+        logarithms *= float(np.asarray(y).item()) ** 2
+        logarithms += x
+        logarithms += math.log(2 * math.pi)
+        logarithms *= -0.5
+        return logarithms
 
     def log_init(self, states: Array) -> Array:
         """The stationary normal density."""

@@ -11,4 +11,4 @@ __all__ = ["ancestors"]
 
 def ancestors(weights: Array, u: Array, count: int) -> Indices:
     """By the numbers (i + u_i) / m."""
-    return drawn(weights, (np.arange(count) + u[:count]) / count)
+    return drawn(weights, (np.arange(float(count)) + u[:count]) / count)

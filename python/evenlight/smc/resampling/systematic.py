@@ -11,4 +11,4 @@ __all__ = ["ancestors"]
 
 def ancestors(weights: Array, u: Array, count: int) -> Indices:
     """By the numbers (i + u) / m: every particle is drawn ⌊m w⌋ or ⌈m w⌉ times."""
-    return drawn(weights, (np.arange(count) + u[0]) / count)
+    return drawn(weights, (np.arange(float(count)) + u[0]) / count)
