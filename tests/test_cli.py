@@ -149,10 +149,11 @@ def test_an_interrupt_writes_what_there_is(tmp_path: Path, scenes: Path, request
 
 
 def test_levels_are_summed_and_shown(evenlight_command: Run) -> None:
-    done = evenlight_command("multilevel", "gbm", "european", "milstein", "strike=110", "--rmse", "0.2", "--seed", "3")
+    call = "multilevel", "gbm", "european", "milstein", "strike=110", "--rmse", "0.2", "--seed", "3", "--level", "0.999"
+    done = evenlight_command(*call)
     assert done.returncode == 0
     summary, header, *rows = done.stdout.splitlines()
-    assert summary.startswith("Estimate(")
+    assert summary.startswith("Estimate(") and ", 0.999 interval [" in summary
     assert header.split() == ["level", "N", "mean", "variance", "cost", "kurtosis", "consistency"]
     assert [int(row.split()[0]) for row in rows] == list(range(len(rows)))
     plain = json.loads(evenlight_command("multilevel", "gbm", "asian", "--rmse", "0.2", "--json").stdout)

@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(estimate.to_dict() | {"interval": [low, high], "level": options.level}, indent=2))
         return 0
-    print(f"{estimate!r}, {options.level:.0%} interval {low:.8g} to {high:.8g}, cost {estimate.cost:.4g}")
+    print(f"{estimate!r}, {options.level:.4g} interval [{low:.8g}, {high:.8g}], cost {estimate.cost:.4g}")
     if "levels" in estimate.diagnostics:
         print(level_table(estimate))
     return 0
