@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import json
 from typing import Any
 
@@ -17,7 +18,8 @@ _METHODS: dict[str, Any] = {"mlmc": mlmc, "mlqmc": mlqmc, "multi_index": multi_i
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what the command takes."""
     add = parser.add_argument
-    add("model", choices=list(models.MODELS), metavar="MODEL", help=", ".join(models.MODELS))
+    names = [name for name, model in models.MODELS.items() if _has_defaults(model)]
+    add("model", choices=names, metavar="MODEL", help=f"{', '.join(names)}; those that take functions are for Python")
     add("setting", nargs="*", type=_setting, help="what the model asks, such as: asian exact construction=bridge")
     add("--rmse", type=float, required=True, help="root mean squared error to reach, of bias and noise together")
     add("--method", choices=list(_METHODS), default="mlmc", help="above the levels (%(default)s)")
@@ -51,6 +53,12 @@ def _indexed(name: str, *arguments: Any, **settings: Any) -> Any:
             f"{name!r} is refined in one direction only; multi_index takes {', '.join(models.INDEXED_MODELS)}"
         )
     return models.INDEXED_MODELS[name](*arguments, **settings)
+
+
+def _has_defaults(model: type) -> bool:
+    """Whether a model can be built from words and numbers alone."""
+    needed = inspect.signature(model).parameters.values()
+    return all(part.default is not part.empty or part.kind is part.VAR_KEYWORD for part in needed)
 
 
 def _setting(text: str) -> Any:

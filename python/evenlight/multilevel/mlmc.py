@@ -90,6 +90,7 @@ def mlmc(
     the last ones is as large as the bias. Barriers that are looked at only at time steps (GeometricBrownianMotion(
     "barrier", "euler")) have both: differences change their sign, grow up to level 4 and then fall with alpha = 1/2.
     Errors are 1 to 1.6 tolerances there, and to give alpha hardly helps; the scheme "milstein" does.
+
     References: M. B. Giles, "Multilevel Monte Carlo path simulation", Oper. Res. 56(3), 607-617 (2008), and
     "Multilevel Monte Carlo methods", Acta Numerica 24, 259-328 (2015); N. Collier, A.-L. Haji-Ali, F. Nobile, E. von
     Schwerin and R. Tempone, "A continuation multilevel Monte Carlo algorithm", BIT 55, 399-432 (2015).

@@ -18,6 +18,7 @@ from .option import Option
 from .path import Path
 from .payoffs import PAYOFFS
 from .row_blocks import row_blocks
+from .terms import terms_of
 
 __all__ = ["GeometricBrownianMotion"]
 
@@ -119,7 +120,7 @@ class GeometricBrownianMotion(LevelSampler):
         ):
             if name not in known:
                 raise ValueError(f"unknown {what} {name!r}; known: {', '.join(known)}")
-        self.option = Option(**terms)
+        self.option = terms_of(Option, terms)
         self.payoff = PAYOFFS[payoff](self.option)
         self.scheme = scheme
         self.construction = construction

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy import integrate
 
 from .path_sampler import PathSampler
+from .terms import terms_of
 
 __all__ = ["Heston", "HestonTerms", "heston_call"]
 
@@ -139,7 +140,7 @@ class Heston(PathSampler):
     ) -> None:
         if scheme not in _SCHEMES:
             raise ValueError(f"unknown scheme {scheme!r}; known: {', '.join(_SCHEMES)}")
-        self.terms = HestonTerms(**terms)
+        self.terms = terms_of(HestonTerms, terms)
         self.name = f"heston {scheme}"
         self._corrected = scheme != "euler"
         super().__init__(
