@@ -149,13 +149,18 @@ def test_an_interrupt_writes_what_there_is(tmp_path: Path, scenes: Path, request
 
 
 def test_levels_are_summed_and_shown(evenlight_command: Run) -> None:
-    done = evenlight_command("multilevel", "gbm", "european", "milstein", "strike=110", "--rmse", "0.2", "--seed", "3")
+    call = "multilevel", "gbm", "european", "milstein", "strike=110", "--rmse", "0.2", "--seed", "3", "--level", "0.999"
+    done = evenlight_command(*call)
     assert done.returncode == 0
     summary, header, *rows = done.stdout.splitlines()
-    assert summary.startswith("Estimate(")
+    assert summary.startswith("Estimate(") and ", 0.999 interval [" in summary
     assert header.split() == ["level", "N", "mean", "variance", "cost", "kurtosis", "consistency"]
     assert [int(row.split()[0]) for row in rows] == list(range(len(rows)))
     plain = json.loads(evenlight_command("multilevel", "gbm", "asian", "--rmse", "0.2", "--json").stdout)
     assert plain["method"] == "mlmc"
     assert plain["interval"][0] < 5.76309 < plain["interval"][1]  # the price
     assert "known: european" in error_of(evenlight_command("multilevel", "gbm", "nothing", "--rmse", "0.2"))
+    pairs = evenlight_command("multilevel", "diffusion_1d", "uniform", "--rmse", "0.01", "--method", "multi_index")
+    assert "(0, 1)" in pairs.stdout
+    wrong = evenlight_command("multilevel", "gbm", "--rmse", "0.2", "--method", "multi_index")
+    assert "one direction only; multi_index takes diffusion_1d" in error_of(wrong)

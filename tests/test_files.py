@@ -42,7 +42,7 @@ def test_a_link_keeps_pointing_where_it_points(tmp_path: Path) -> None:
 
 
 def test_unwritable_places_are_named(tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="no-such-folder"):
+    with pytest.raises(FileNotFoundError, match="no-such-folder"):
         files.check_writable(tmp_path / "no-such-folder" / "a.exr")
     with pytest.raises(OSError, match="not a regular file"):
         files.check_writable(tmp_path)

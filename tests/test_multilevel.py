@@ -235,6 +235,9 @@ def test_multi_index_stops_at_its_limits() -> None:
         multi_index(toy, rmse=0.02)
     with pytest.raises(TypeError, match="must be a MultiIndexSampler"):
         multi_index(PowerOfUniform(), rmse=0.02)
+    for driver in (mlmc, mlqmc):
+        with pytest.raises(TypeError, match="use multi_index"):
+            driver(toy, rmse=0.02)
 
 
 def test_points_that_cannot_grow_or_be_repeated_are_refused() -> None:

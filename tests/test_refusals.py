@@ -187,4 +187,4 @@ def test_what_is_not_there_yet_is_an_error_or_a_warning_with_its_line(
 def test_an_unknown_error_is_not_called_nan(tmp_path: Path, scenes: Path, capsys: pytest.CaptureFixture[str]) -> None:
     single = ["--spp", "4", "--replicates", "1", "-o", str(tmp_path / "a.png")]
     assert cli.main(["render", str(scenes / "sky.xml"), *SMALL, *single]) == 0
-    assert "mean relative error unknown" in capsys.readouterr().err
+    assert "mean relative error unknown (it takes 2 replicates)" in capsys.readouterr().err

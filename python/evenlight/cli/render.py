@@ -94,7 +94,7 @@ def _say_what_was_written(film: Film, paths: Sequence[str]) -> None:
 
 
 def _percentage(ratio: float) -> str:
-    return "unknown" if math.isnan(ratio) else f"{ratio:.2%}"
+    return "unknown (it takes 2 replicates)" if math.isnan(ratio) else f"{ratio:.2%}"
 
 
 class _Bar:

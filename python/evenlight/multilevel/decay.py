@@ -49,8 +49,7 @@ def measure_rates(rows: Sequence[LevelRow], alpha: float | None, beta: float | N
     """
     used = [row for row in rows if row.level >= 1]
     levels = np.array([row.level for row in used], np.float64)
-    means, variances = (np.array([np.atleast_1d(getattr(row, name)) for row in used]) for name in ("mean", "variance"))
-    costs = np.array([[row.cost] for row in used])
+    means, variances, costs = (_columns(used, name) for name in ("mean", "variance", "cost"))
     if alpha is None:
         alpha = max(LEAST, -_slope(levels, np.abs(means), relative_errors(used, "mean")))
     if beta is None:
@@ -66,7 +65,7 @@ def remaining_bias(rows: Sequence[LevelRow], alpha: float | None, beta: float = 
     they do not fall yet, and the largest of them counts as if it were the last.
     """
     used = [row for row in rows if row.level >= 1]
-    means = np.array([np.atleast_1d(row.mean) for row in used])
+    means = _columns(used, "mean")
     errors = relative_errors(used, "mean")
     if alpha is None:
         levels = np.array([row.level for row in used], np.float64)
@@ -80,17 +79,19 @@ def remaining_bias(rows: Sequence[LevelRow], alpha: float | None, beta: float = 
 
 def relative_errors(rows: Sequence[LevelRow], name: str) -> Array:
     """Standard errors of the mean or the variance of each level over their values, shape (levels, quantities)."""
-    n = np.array([[row.n] for row in rows], np.float64)
-    means, variances, kurtoses = (
-        np.array([np.atleast_1d(getattr(row, part)) for row in rows], np.float64)
-        for part in ("mean", "variance", "kurtosis")
-    )
+    n, variances = _columns(rows, "n"), _columns(rows, "variance")
     with np.errstate(invalid="ignore", divide="ignore"):
         if name == "mean":
-            return np.asarray(np.sqrt(variances / n) / np.abs(means))
+            return np.asarray(np.sqrt(variances / n) / np.abs(_columns(rows, "mean")))
+        kurtoses = _columns(rows, "kurtosis")
         spread = np.where(np.isfinite(kurtoses), np.maximum(kurtoses - 1.0, 2.0), 2.0)
         spread = np.maximum.accumulate(spread, axis=0)  # tails do not become lighter; few samples only do not show them
         return np.asarray(np.sqrt(spread / n) * np.ones_like(variances))
+
+
+def _columns(rows: Sequence[LevelRow], name: str) -> Array:
+    """Entries of all rows, shape (levels, quantities), or (levels, 1) where there is one for all quantities."""
+    return np.array([getattr(row, name) for row in rows], np.float64).reshape(len(rows), -1 if rows else 1)
 
 
 def given_rate(name: str, rate: float | None) -> float | None:

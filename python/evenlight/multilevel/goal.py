@@ -41,6 +41,8 @@ class Goal:
     ) -> Goal:
         """Check the arguments of a run over levels."""
         finest = getattr(sampler, "max_level", None)
+        if isinstance(finest, tuple):
+            raise TypeError("sampler is refined in two directions, its levels are pairs; use multi_index")
         last = _DEEPEST if finest is None else finest
         if max_level is not None:
             last = min(integer("max_level", max_level, 0), math.inf if finest is None else finest)

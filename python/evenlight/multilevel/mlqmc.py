@@ -139,8 +139,9 @@ class _Run:
         while True:
             bias = self._bias()
             budget = goal.variance(goal.rmse, bias)
-            if np.any(sum(self._variances()) > budget):
-                if not self._double(budget):
+            variances = self._variances()
+            if np.any(sum(variances) > budget):
+                if not self._double(variances, budget):
                     return goal.too_expensive
             elif goal.fits(goal.rmse, bias):
                 return ""
@@ -191,9 +192,8 @@ class _Run:
             variances[fine] = np.maximum(variances[fine], 0.5 * rate * rows[fine - 1].variance / rows[fine].n)
         return variances
 
-    def _double(self, budget: Any) -> bool:
+    def _double(self, variances: list[Any], budget: Any) -> bool:
         """Double the points where most variance goes for the cost, unless that costs too much."""
-        variances = self._variances()
         gains = [float(np.max(v / budget)) / level.cost for v, level in zip(variances, self._levels, strict=True)]
         level = self._levels[int(np.argmax(gains))]
         if self._cost() + level.cost > self._goal.max_cost:
