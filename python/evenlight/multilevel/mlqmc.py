@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any, SupportsIndex
 
 import numpy as np
@@ -182,14 +183,15 @@ class _Run:
         return remaining_bias(self._rows(), self._alpha)
 
     def _variances(self) -> list[Any]:
-        """Of the means of all levels: as measured, and at least half of what the level before lets expect.
+        """Of the means of all levels: as measured, and per point at least a sixth of that of the level before.
 
-        Fewer points of a finer level are spread no more evenly, so that n times the variance falls no faster than 2^-β.
+        Where variances fall as 2^-β with β < 2.6, they are more than that: fewer points of a finer level are spread no
+        more evenly. It keeps a level from looking quiet by chance.
         """
-        rows, rate = self._rows(), 2.0 ** -self._rates().beta
         variances = [level.variance for level in self._levels]
-        for fine in range(2, len(rows)):
-            variances[fine] = np.maximum(variances[fine], 0.5 * rate * rows[fine - 1].variance / rows[fine].n)
+        for fine, (before, level) in enumerate(pairwise(self._levels), start=1):
+            if fine > 1:  # level 0 is no difference
+                variances[fine] = np.maximum(variances[fine], before.row.variance / (6.0 * level.row.n))
         return variances
 
     def _double(self, variances: list[Any], budget: Any) -> bool:
