@@ -39,12 +39,12 @@ def test_intervals_hold_the_likelihood(points: Any) -> None:
     assert held / RUNS >= 0.95 - 3 * np.sqrt(0.95 * 0.05 / RUNS)
 
 
-@pytest.mark.parametrize(("d", "noise", "least"), [(1, 0.5, 30.0), (2, 0.7, 8.0), (4, 1.0, 1.5)])
-def test_gain_of_evenly_spread_points(d: int, noise: float, least: float) -> None:
-    """Mean squared errors of log Z, 40 runs each: their ratio has a relative error of 32 % (F(40, 40))."""
+@pytest.mark.parametrize(("d", "noise", "runs", "least"), [(1, 0.5, 400, 30.0), (2, 0.7, 40, 8.0), (4, 1.0, 40, 1.5)])
+def test_gain_of_evenly_spread_points(d: int, noise: float, runs: int, least: float) -> None:
+    """Mean squared errors of log Z. With kurtosis 5, as in one dimension, their ratio has a relative error of 13 %."""
     model, y, truth = case(d, 30, noise)
     errors = [
-        smc.filter(model, y, particles=4096, points=points, replicates=40, seed=5).diagnostics["replicates"] - truth
+        smc.filter(model, y, particles=4096, points=points, replicates=runs, seed=5).diagnostics["replicates"] - truth
         for points in (None, Sobol)
     ]
     gain = np.mean(errors[0] ** 2) / np.mean(errors[1] ** 2)
