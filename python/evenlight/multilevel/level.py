@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenlight import _core
 from evenlight.multilevel.level_sampler import draw
 from evenlight.multilevel.work_arrays import work_array
 from evenlight.points import Engine, Independent
@@ -68,12 +69,11 @@ class LevelRow(NamedTuple):
 
 def level_points(points: Engine | None, dims: int, level: Any, seed: int) -> Engine:
     """The points of a level, independent of those of all others; independent points if none are given."""
-    engine = (
-        Independent(dims, seed=seed) if points is None else type(points)(**{**points._spec(), "d": dims}, seed=seed)
-    )
     for part in np.atleast_1d(level):
-        engine = engine.replicate(int(part))
-    return engine
+        seed = _core.replicate_seed(seed, int(part))
+    if points is None:
+        return Independent(dims, seed=seed)
+    return type(points)(**{**points._spec(), "d": dims}, seed=seed)
 
 
 class Level:
