@@ -283,6 +283,8 @@ def test_arguments_without_meaning_are_refused(arguments: dict[str, Any], messag
     target, proposals = TOY
     with pytest.raises(ValueError, match=message):
         mixture_estimate(beyond_three, target, proposals, n=1024, **arguments)
+    with pytest.raises(TypeError, match=r"a sequence of so many dimensions, Sobol\(d\), not its class"):
+        mixture_estimate(beyond_three, target, proposals, n=1024, points=Sobol)
 
 
 def test_families_have_their_files() -> None:

@@ -7,6 +7,7 @@ from typing import Any, Literal, SupportsIndex
 
 import numpy as np
 
+from evenlight.arguments import check_points
 from evenlight.estimate import Estimate, from_error, from_moments, plain
 from evenlight.importance import regression
 from evenlight.importance.densities.density import Array
@@ -93,6 +94,12 @@ def mixture_estimate(
     integrand = Integrand(f, None, "raise")
     if beta not in ("lstsq", None):
         raise ValueError(f"beta must be 'lstsq' or None, not {beta!r}")
+    if points is not None:
+        check_points(points)
+        if points.d != mixture.uniforms:
+            raise ValueError(f"this mixture takes points of {mixture.uniforms} dimensions; {points!r} has {points.d}")
+        if n < replicates:
+            raise ValueError(f"n = {n} is less than the number of replicates, {replicates}")
     source = Independent(mixture.uniforms - 1, seed=seed)
     size = 0
     learned = None
@@ -180,10 +187,6 @@ def _in_strata(mixture: Mixture, integrand: Integrand, alpha: Array, source: Any
 def _in_replicates(
     mixture: Mixture, integrand: Integrand, alpha: Array, points: Any, rows: int, replicates: int, cv: bool
 ) -> Estimate:
-    if points.d != mixture.uniforms:
-        raise ValueError(f"this mixture takes points of {mixture.uniforms} dimensions; {points!r} has {points.d}")
-    if rows < 1:
-        raise ValueError(f"n is less than the number of replicates, {replicates}")
     u = points.points(0, rows, replicates=replicates).reshape(-1, mixture.uniforms)
     sample = mixture.draw(alpha, u)
     fp = values(integrand, sample)
