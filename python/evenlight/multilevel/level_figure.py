@@ -60,11 +60,12 @@ def level_figure(estimate: Estimate) -> Any:
     panels[2].semilogy(levels, [row.n for row in rows], "-o")
     panels[2].set(xlabel="level", ylabel="samples")
     panels[3].plot(levels[1:], _column(rows, "kurtosis")[1:], "-o", color="C2")
-    panels[3].set(xlabel="level", ylabel="kurtosis")
+    panels[3].set_xlabel("level")
+    panels[3].set_ylabel("kurtosis", color="C2")
     checks = panels[3].twinx()
     checks.plot(levels[1:], _column(rows, "consistency")[1:], "-s", color="C3")
     checks.axhline(1.0, linestyle=":", color="C3")
-    checks.set_ylabel("consistency")
+    checks.set_ylabel("consistency", color="C3")
     return figure
 
 

@@ -89,7 +89,7 @@ def mlmc(
     Errors are larger where first means look as if they had converged and have not, or fall so slowly that the noise of
     the last ones is as large as the bias. Barriers that are looked at only at time steps (GeometricBrownianMotion(
     "barrier", "euler")) have both: differences change their sign, grow up to level 4 and then fall with alpha = 1/2.
-    Errors are 1 to 1.6 tolerances there, and to give alpha hardly helps; the scheme "milstein" does.
+    Errors are 1 to 1.7 tolerances there, and to give alpha hardly helps; the scheme "milstein" does.
 
     References: M. B. Giles, "Multilevel Monte Carlo path simulation", Oper. Res. 56(3), 607-617 (2008), and
     "Multilevel Monte Carlo methods", Acta Numerica 24, 259-328 (2015); N. Collier, A.-L. Haji-Ali, F. Nobile, E. von
