@@ -39,9 +39,12 @@ def test_intervals_hold_the_likelihood(points: Any) -> None:
     assert held / RUNS >= 0.95 - 3 * np.sqrt(0.95 * 0.05 / RUNS)
 
 
-@pytest.mark.parametrize(("d", "noise", "runs", "least"), [(1, 0.5, 400, 30.0), (2, 0.7, 40, 8.0), (4, 1.0, 40, 1.5)])
+@pytest.mark.parametrize(("d", "noise", "runs", "least"), [(1, 0.5, 400, 20.0), (2, 0.7, 40, 8.0), (4, 1.0, 40, 1.5)])
 def test_gain_of_evenly_spread_points(d: int, noise: float, runs: int, least: float) -> None:
-    """Mean squared errors of log Z. With kurtosis 5, as in one dimension, their ratio has a relative error of 13 %."""
+    """Mean squared errors of log Z. With kurtosis 5, as in one dimension, their ratio has a relative error of 13 %.
+
+    There 20 is three such errors below the 35 that were measured: other rounding makes other runs.
+    """
     model, y, truth = case(d, 30, noise)
     errors = [
         smc.filter(model, y, particles=4096, points=points, replicates=runs, seed=5).diagnostics["replicates"] - truth
