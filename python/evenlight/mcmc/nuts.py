@@ -16,6 +16,7 @@ from .driving import IndependentNumbers
 from .gradients import Gradient, with_gradient
 from .kernel import Array, LogDensity, State
 from .leapfrog import gradient_state
+from .target import check_between_0_and_1
 
 __all__ = ["NUTS"]
 
@@ -77,8 +78,7 @@ class NUTS:
 
     def __post_init__(self) -> None:
         check_callable("log_density", self.log_density)
-        if not 0 < self.target_acceptance < 1:
-            raise ValueError(f"target_acceptance must be between 0 and 1, not {self.target_acceptance}")
+        check_between_0_and_1("target_acceptance", self.target_acceptance)
         integer("max_depth", self.max_depth, 1)
         object.__setattr__(self, "_functions", with_gradient(self.log_density, self.gradient))
 

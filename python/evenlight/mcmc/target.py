@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .kernel import Array, LogDensity, State
 
-__all__ = ["DensityState", "check_positive", "density_state", "evaluate", "moved", "positions"]
+__all__ = ["DensityState", "check_between_0_and_1", "check_positive", "density_state", "evaluate", "moved", "positions"]
 
 S = TypeVar("S", bound=State)
 
@@ -62,6 +62,12 @@ def moved(state: S, accepted: NDArray[np.bool_], **proposed: Array) -> S:
         for name, new in proposed.items()
     }
     return replace(state, **rows)
+
+
+def check_between_0_and_1(name: str, value: float) -> None:
+    """Raise a ValueError if an argument is not a number between 0 and 1, neither of them."""
+    if not 0 < value < 1:
+        raise ValueError(f"{name} must be between 0 and 1, not {value}")
 
 
 def check_positive(name: str, value: float) -> None:

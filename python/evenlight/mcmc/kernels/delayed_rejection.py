@@ -10,7 +10,7 @@ import numpy as np
 from evenlight.arguments import check_callable
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.metric import root_of, spread
-from evenlight.mcmc.target import DensityState, check_positive, density_state, evaluate, moved
+from evenlight.mcmc.target import DensityState, check_between_0_and_1, check_positive, density_state, evaluate, moved
 
 __all__ = ["DelayedRejection", "DelayedRejectionInfo"]
 
@@ -72,8 +72,7 @@ class DelayedRejection(Kernel):
         check_callable("log_density", self.log_density)
         if self.scale is not None:
             check_positive("scale", self.scale)
-        if not 0 < self.shrink < 1:
-            raise ValueError(f"shrink must be between 0 and 1, not {self.shrink}")
+        check_between_0_and_1("shrink", self.shrink)
         object.__setattr__(self, "_root", root_of(self.covariance))
 
     def dims(self, d: int) -> int:

@@ -14,7 +14,7 @@ from evenlight.mcmc.gradients import Gradient, with_gradient
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.leapfrog import GradientState, gradient_state, leapfrog, tuned
 from evenlight.mcmc.metric import root_of
-from evenlight.mcmc.target import check_positive, moved
+from evenlight.mcmc.target import check_between_0_and_1, check_positive, moved
 
 __all__ = ["HMC", "HamiltonianInfo"]
 
@@ -111,8 +111,7 @@ class HMC(Kernel):
         check_callable("log_density", self.log_density)
         check_positive("step_size", self.step_size)
         integer("steps", self.steps, 1)
-        if not 0 < self.target_acceptance < 1:
-            raise ValueError(f"target_acceptance must be between 0 and 1, not {self.target_acceptance}")
+        check_between_0_and_1("target_acceptance", self.target_acceptance)
         object.__setattr__(self, "_functions", with_gradient(self.log_density, self.gradient))
         object.__setattr__(self, "_root", root_of(self.covariance))
 

@@ -13,7 +13,7 @@ from evenlight.mcmc.gradients import Gradient, with_gradient
 from evenlight.mcmc.kernel import Array, Info, Kernel, LogDensity, WarmUp, metropolis, normals
 from evenlight.mcmc.leapfrog import GradientState, gradient_state, tuned
 from evenlight.mcmc.metric import root_of, spread
-from evenlight.mcmc.target import check_positive, evaluate, moved
+from evenlight.mcmc.target import check_between_0_and_1, check_positive, evaluate, moved
 
 __all__ = ["Microcanonical", "MicrocanonicalInfo"]
 
@@ -109,8 +109,7 @@ class Microcanonical(Kernel):
         integer("steps", self.steps, 1)
         if not 0 <= self.decades < np.inf:
             raise ValueError(f"decades must be finite and at least 0, not {self.decades}")
-        if not 0 < self.target_acceptance < 1:
-            raise ValueError(f"target_acceptance must be between 0 and 1, not {self.target_acceptance}")
+        check_between_0_and_1("target_acceptance", self.target_acceptance)
         object.__setattr__(self, "_functions", with_gradient(self.log_density, self.gradient))
         object.__setattr__(self, "_root", root_of(self.covariance))
 
