@@ -71,9 +71,7 @@ def level_points(points: Engine | None, dims: int, level: Any, seed: int) -> Eng
     """The points of a level, independent of those of all others; independent points if none are given."""
     for part in np.atleast_1d(level):
         seed = _core.replicate_seed(seed, int(part))
-    if points is None:
-        return Independent(dims, seed=seed)
-    return type(points)(**{**points._spec(), "d": dims}, seed=seed)
+    return Independent(dims, seed=seed) if points is None else points._other(dims, seed)
 
 
 class Level:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import Any, SupportsIndex
 
 import numpy as np
@@ -188,10 +187,10 @@ class _Run:
         Where variances fall as 2^-β with β < 2.6, they are more than that: fewer points of a finer level are spread no
         more evenly. It keeps a level from looking quiet by chance.
         """
+        rows = self._rows()
         variances = [level.variance for level in self._levels]
-        for fine, (before, level) in enumerate(pairwise(self._levels), start=1):
-            if fine > 1:  # level 0 is no difference
-                variances[fine] = np.maximum(variances[fine], before.row.variance / (6.0 * level.row.n))
+        for fine in range(2, len(rows)):  # level 0 is no difference
+            variances[fine] = np.maximum(variances[fine], rows[fine - 1].variance / (6.0 * rows[fine].n))
         return variances
 
     def _double(self, variances: list[Any], budget: Any) -> bool:

@@ -183,8 +183,9 @@ class _Run:
             sizes = [min(size, last + 1) for size, last in zip(sizes, self._goal.max_level, strict=True)]
         beyond = self._means.at(*np.indices(sizes))
         beyond[tuple(np.array(list(self._levels)).T)] = 0.0
-        for pair in self._candidates():
-            beyond[pair] = self._expected_mean(pair)
+        self._next = {pair: self._expected_mean(pair) for pair in self._candidates()}
+        for pair, mean in self._next.items():
+            beyond[pair] = mean
         shape = np.shape(self._rows[0, 0].mean)
         self._bias = beyond.sum(axis=(0, 1)).reshape(shape)
         first, second = np.indices(sizes)
@@ -228,8 +229,8 @@ class _Run:
         """The candidate with the largest mean for what it adds to the cost."""
         roots = self._roots()
         return max(
-            self._candidates(),
-            key=lambda pair: float(np.max(self._expected_mean(pair) / self._price(pair, roots))),
+            self._next,
+            key=lambda pair: float(np.max(self._next[pair] / self._price(pair, roots))),
             default=None,
         )
 
@@ -252,5 +253,5 @@ class _Run:
             return True
         now = roots**2 / goal.variance(goal.rmse, bias)
         then = now + self._price(pair, roots)
-        then *= goal.variance(goal.rmse, bias) / goal.variance(goal.rmse, bias - self._expected_mean(pair))
+        then *= goal.variance(goal.rmse, bias) / goal.variance(goal.rmse, bias - self._next[pair])
         return float(np.max(then)) < float(np.max(now))

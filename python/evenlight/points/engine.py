@@ -228,7 +228,11 @@ class Engine(qmc.QMCEngine):
         """
         number = integer("r", r, 0)
         self._replicates(1)
-        return type(self)(**self._spec(), seed=_core.replicate_seed(self.seed, number))
+        return self._other(int(self.d), _core.replicate_seed(self.seed, number))
+
+    def _other(self, d: int, seed: int | None = None) -> Self:
+        """The same sequence in so many dimensions, with this seed."""
+        return type(self)(**{**self._spec(), "d": d}, seed=seed)
 
     def fast_forward(self, n: SupportsIndex) -> Self:  # type: ignore[override]  # any integer will do
         """Skip the next `n` rows of `random`, at no cost.

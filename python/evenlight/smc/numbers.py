@@ -59,7 +59,7 @@ class StepNumbers:
 
     def _points(self, columns: int) -> Any:
         """The sequence in as many dimensions; seeds come with `_fill`, which costs less than building it anew."""
-        return type(self._example)(**{**self._example._spec(), "d": columns})._core
+        return self._example._other(columns)._core
 
     def _fill(self, points: Any, columns: int, part: int) -> Array:
         out: Array = np.empty((self._n, columns))

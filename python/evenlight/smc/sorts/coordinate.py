@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from evenlight import _core
-
-from .sort import Array, Indices, Sort
+from .sort import Array, Indices, Sort, along_curve
 
 __all__ = ["SORT"]
 
 
 def _order(states: Array) -> Indices:
-    return _core.cloud_order(np.ascontiguousarray(states[:, :1])).astype(np.intp, copy=False)
+    return along_curve(states[:, :1])
 
 
 SORT = Sort(_order, lambda d: 1)

@@ -6,17 +6,8 @@ States of one dimension come in ascending order.
 
 from __future__ import annotations
 
-import numpy as np
-
-from evenlight import _core
-
-from .sort import Array, Indices, Sort
+from .sort import Sort, along_curve
 
 __all__ = ["SORT"]
 
-
-def _order(states: Array) -> Indices:
-    return _core.cloud_order(np.ascontiguousarray(states)).astype(np.intp, copy=False)
-
-
-SORT = Sort(_order, lambda d: 1)
+SORT = Sort(along_curve, lambda d: 1)

@@ -8,7 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Indices", "Sort"]
+from evenlight import _core
+
+__all__ = ["Array", "Indices", "Sort", "along_curve"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -31,3 +33,8 @@ class Sort(NamedTuple):
     """How many first coordinates of points belong to the sort of states of d coordinates."""
     sorts_points: bool = False
     """Whether points are sorted by these just as states are; if not, their number stands for them."""
+
+
+def along_curve(states: Array) -> Indices:
+    """The order of states along Hilbert's curve through their cloud; of one coordinate, the ascending order."""
+    return _core.cloud_order(np.ascontiguousarray(states)).astype(np.intp, copy=False)
